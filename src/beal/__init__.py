@@ -1,0 +1,1 @@
+"""beal: stability of flexible launch vehicles under thrust."""

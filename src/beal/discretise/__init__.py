@@ -1,0 +1,1 @@
+"""Where integrals become matrices: bases, axial force, assembly."""

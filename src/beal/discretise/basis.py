@@ -1,0 +1,120 @@
+"""Shape functions over a chain of segments: what every basis shares."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beal.vehicle.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+SNAP = 1e-9  # share of the length within which a station counts as a segment's end
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A stretch of one stage over which every property is smooth."""
+
+    stage: int
+    start: float
+    length: float
+
+    @property
+    def end(self) -> float:
+        return self.start + self.length
+
+
+def segments(vehicle: Vehicle, pieces: int = 1) -> tuple[Segment, ...]:
+    """Stretches of the stages between point masses and force stations, each cut into equal ``pieces``.
+
+    A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
+    """
+    loads = [part.station for part in (*vehicle.point_masses, *vehicle.forces)]
+    chain = []
+    for stage, (front, back) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False)):
+        margin = SNAP * vehicle.length
+        ends = [front]
+        for station in sorted(loads):
+            if ends[-1] + margin < station < back - margin:
+                ends.append(station)
+        ends.append(back)
+        for a, b in zip(ends, ends[1:], strict=False):
+            cuts = np.linspace(a, b, pieces + 1)
+            chain += [Segment(stage, float(x), float(y - x)) for x, y in zip(cuts, cuts[1:], strict=False)]
+    return tuple(chain)
+
+
+class Basis(ABC):
+    """Shape functions on segments; a coordinate vector q means the deflection ``rows(...) @ q``.
+
+    The first two columns of every polynomial basis are the rigid-body motions of the whole vehicle, translation and
+    rotation about the nose, so that the others carry the strain alone.
+    """
+
+    segments: tuple[Segment, ...]
+    quadrature: int  # Gauss points per segment that integrate the products of the shapes exactly
+
+    @property
+    @abstractmethod
+    def size(self) -> int:
+        """Number of coordinates."""
+
+    @abstractmethod
+    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
+        """Values of a derivative of all shapes at xi in [-1, 1] of a segment, shape (len(xi), size)."""
+
+    def locate(self, station: float, side: Literal["aft", "forward"] = "aft") -> tuple[int, float]:
+        """Segment and xi of a station; where two segments meet, the one on the given side."""
+        margin = SNAP * self.segments[-1].end
+        shift = margin if side == "aft" else -margin
+        starts = np.array([segment.start for segment in self.segments])
+        index = int(np.clip(np.searchsorted(starts, station + shift, side="right") - 1, 0, len(starts) - 1))
+        segment = self.segments[index]
+        return index, float(np.clip(2 * (station - segment.start) / segment.length - 1, -1, 1))
+
+    def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Array:
+        """Values of a derivative of all shapes at stations, shape (len(stations), size)."""
+        rows = np.empty((len(stations), self.size))
+        for row, station in zip(rows, stations, strict=True):
+            segment, xi = self.locate(float(station), side)
+            row[:] = self.rows(segment, np.array([xi]), derivative)[0]
+        return rows
+
+    def jump(self, segment: int, derivative: int) -> Array:
+        """[[f]] = f(aft side) - f(forward side) across the front of a segment, shape (size,)."""
+        aft = self.rows(segment, np.array([-1.0]), derivative)[0]
+        return aft - self.rows(segment - 1, np.array([1.0]), derivative)[0]
+
+
+@dataclass(frozen=True)
+class Combined(Basis):
+    """Linear combinations of another basis' shapes.
+
+    Parameters
+    ----------
+    basis : Basis
+    transformation : ndarray, shape (basis.size, size)
+    """
+
+    basis: Basis
+    transformation: Array
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:  # type: ignore[override]
+        return self.basis.segments
+
+    @property
+    def quadrature(self) -> int:  # type: ignore[override]
+        return self.basis.quadrature
+
+    @property
+    def size(self) -> int:
+        return self.transformation.shape[1]
+
+    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
+        return self.basis.rows(segment, xi, derivative) @ self.transformation
+
+    def jump(self, segment: int, derivative: int) -> Array:
+        return self.basis.jump(segment, derivative) @ self.transformation

@@ -1,0 +1,100 @@
+"""From a vehicle to its operators, under each of the formulations that the program names."""
+
+from typing import Literal, get_args
+
+import numpy as np
+
+from beal.discretise.assembly import assemble
+from beal.discretise.basis import Basis
+from beal.discretise.hermite import HermiteBasis
+from beal.discretise.legendre import LegendreBasis
+from beal.discretise.modes import ModeBasis
+from beal.discretise.operators import Operators
+from beal.errors import ModelError
+from beal.vehicle.vehicle import Vehicle
+
+Formulation = Literal["objective", "converged", "corrected-ritz", "as-printed"]
+BasisName = Literal["legendre", "hermite"]
+FORMULATIONS: tuple[Formulation, ...] = get_args(Formulation)
+RITZ: dict[str, Literal["natural", "printed"]] = {"corrected-ritz": "natural", "as-printed": "printed"}
+DEFAULT_ORDER = {"legendre": 10, "hermite": 16}
+PAPER_MODES = 8
+
+
+def discretise(
+    vehicle: Vehicle,
+    formulation: Formulation = "objective",
+    basis: BasisName = "legendre",
+    order: int | None = None,
+) -> Operators:
+    """Matrices of a vehicle, M q'' + (K0 + P K1) q = F.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
+        ``objective``: each joint slides along its own shear axis. ``converged``: every joint slides along a direction
+        fixed in space and rigid-body motions are dropped, the equations of Irani & Kavianipour (2009) solved to
+        convergence. ``corrected-ritz``, ``as-printed``: the same equations in the lowest modes of the unloaded
+        vehicle, with the right and with the printed sign of their Eq. (12).
+    basis : {"legendre", "hermite"}
+        Polynomials on each segment, or cubic finite elements. The last two formulations have their own basis.
+    order : int, optional
+        Degree of the curvature, elements per segment, or number of modes.
+
+    Returns
+    -------
+    Operators
+
+    Raises
+    ------
+    ModelError
+        If the formulation does not apply to the vehicle, or an option is out of range.
+
+    Examples
+    --------
+    >>> from beal.vehicle import catalog
+    >>> discretise(catalog.beck(), order=8).K0.shape
+    (9, 9)
+    """
+    if formulation not in FORMULATIONS:
+        raise ModelError(f"formulation: must be one of {', '.join(FORMULATIONS)}, found {formulation!r}")
+    if order is not None and order < 1:
+        raise ModelError(f"order: must be at least 1, found {order}")
+    if formulation in RITZ:
+        _check_ritz(vehicle, formulation)
+        modes = ModeBasis(vehicle, order or PAPER_MODES, RITZ[formulation])
+        return assemble(_inertial(vehicle), modes, supports=False)
+    if basis not in DEFAULT_ORDER:
+        raise ModelError(f"basis: must be one of {', '.join(DEFAULT_ORDER)}, found {basis!r}")
+    shapes: Basis
+    shapes = (LegendreBasis if basis == "legendre" else HermiteBasis)(vehicle, order or DEFAULT_ORDER[basis])
+    if formulation == "converged":
+        return assemble(_inertial(vehicle), shapes, rigid_body=False)
+    return assemble(vehicle, shapes)
+
+
+def _inertial(vehicle: Vehicle) -> Vehicle:
+    """The vehicle with every joint sliding along a direction fixed in space."""
+    joints = tuple(joint.model_copy(update={"shear_axis": "inertial"}) for joint in vehicle.joints)
+    return vehicle.model_copy(update={"joints": joints})
+
+
+def _check_ritz(vehicle: Vehicle, formulation: str) -> None:
+    """Refuses vehicles to which the modes of Irani & Kavianipour (2009), Eq. (10), do not belong."""
+    stages = vehicle.stages
+    reasons = []
+    if len(stages) != 2:
+        reasons.append(f"two stages, found {len(stages)}")
+    elif not np.allclose(
+        (stages[0].mass_per_length, stages[0].bending_stiffness),
+        (stages[1].mass_per_length, stages[1].bending_stiffness),
+        rtol=1e-12,
+    ):
+        reasons.append("two stages of equal mass per length and bending stiffness")
+    if not vehicle.free_free:
+        reasons.append(f"free ends, found {vehicle.support.nose} nose and {vehicle.support.tail} tail")
+    if vehicle.point_masses:
+        reasons.append(f"no point masses, found {len(vehicle.point_masses)}")
+    if reasons:
+        raise ModelError(f"formulation {formulation}: applies to the paper's vehicle only, {'; '.join(reasons)}")

@@ -1,0 +1,52 @@
+"""Numbering of coordinates along the chain: rigid-body motion first, then segments and flexible joints in order."""
+
+import math
+
+import numpy as np
+
+from beal.discretise.basis import Array, Segment
+from beal.vehicle.vehicle import Vehicle
+
+
+class Chain:
+    """Columns of the segments' own coordinates and of the joints' jumps.
+
+    A joint's coordinate is its jump times the square root of (stiffness + that of the beam behind), which keeps every
+    column of the same size in energy from a hinge to an all but rigid joint.
+    """
+
+    def __init__(self, vehicle: Vehicle, segments: tuple[Segment, ...], per_segment: int) -> None:
+        self.columns: list[slice] = []
+        self._jumps: list[tuple[int | None, float, int | None, float]] = []
+        length = vehicle.length
+        column = 2
+        for index, segment in enumerate(segments):
+            shear = rotation = None
+            shear_scale = rotation_scale = 0.0
+            if index and segments[index - 1].stage != segment.stage:
+                joint = vehicle.joints[segment.stage - 1]
+                beam = vehicle.stages[segment.stage].bending_stiffness
+                if math.isfinite(joint.shear_stiffness):
+                    shear, shear_scale = column, (joint.shear_stiffness + beam / length**3) ** -0.5
+                    column += 1
+                if math.isfinite(joint.rotational_stiffness):
+                    rotation, rotation_scale = column, (joint.rotational_stiffness + beam / length) ** -0.5
+                    column += 1
+            self._jumps.append((shear, shear_scale, rotation, rotation_scale))
+            self.columns.append(slice(column, column + per_segment))
+            column += per_segment
+        self.size = column
+
+    def nose(self) -> Array:
+        """Deflection and slope at the nose: the rigid-body coordinates, shape (2, size)."""
+        return np.eye(2, self.size)
+
+    def jumps(self, segment: int) -> Array:
+        """Jumps of deflection and slope across the front of a segment, shape (2, size); zero without a joint."""
+        shear, shear_scale, rotation, rotation_scale = self._jumps[segment]
+        jumps = np.zeros((2, self.size))
+        if shear is not None:
+            jumps[0, shear] = shear_scale
+        if rotation is not None:
+            jumps[1, rotation] = rotation_scale
+        return jumps

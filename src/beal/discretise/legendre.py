@@ -1,0 +1,80 @@
+"""Legendre polynomials of the curvature on each segment, and the joints' own deformations: strain coordinates.
+
+Deflection and slope follow by integrating from the nose. In these coordinates the bending and spring stiffness is
+diagonal, each coordinate is scaled by its own stiffness, and a joint of 1e12 is as harmless as one of 1; a rigid
+joint has no coordinate at all.
+"""
+
+from functools import cache
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from beal.discretise.basis import Array, Basis, segments
+from beal.discretise.chain import Chain
+from beal.vehicle.vehicle import Vehicle
+
+
+class LegendreBasis(Basis):
+    """Curvature of degree up to ``order`` on each segment, so deflections of degree ``order + 2``.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    order : int
+        Highest degree of the curvature, at least 1 (0 and 1 carry the segment's end rotation and deflection).
+    """
+
+    def __init__(self, vehicle: Vehicle, order: int) -> None:
+        self.segments = segments(vehicle)
+        self.quadrature = order + 3  # exact to degree 2 * order + 5, the mass integrand has 2 * order + 4
+        self._order = order
+        chain = Chain(vehicle, self.segments, per_segment=order + 1)
+        self._size = chain.size
+        self._columns = chain.columns
+        self._stiffness = [vehicle.stages[segment.stage].bending_stiffness for segment in self.segments]
+        self._front = np.zeros((len(self.segments), 2, self._size))  # deflection and slope at the fronts
+        state = chain.nose()
+        for index, segment in enumerate(self.segments):
+            state = state + chain.jumps(index)
+            self._front[index] = state
+            state = self._advance(index, state, segment.length)
+
+    @property
+    def size(self) -> int:
+        return self._size
+
+    def _advance(self, index: int, state: Array, length: float) -> Array:
+        """Deflection and slope at the aft end of a segment from those at its front."""
+        end = np.array([state[0] + length * state[1], state[1]])
+        columns = self._columns[index]
+        for derivative in (0, 1):
+            end[derivative, columns] += self._local(index, np.array([1.0]), derivative)[0]
+        return end
+
+    def _local(self, index: int, xi: Array, derivative: int) -> Array:
+        """Deflection, slope or curvature that the segment's own coordinates add behind its front."""
+        length = self.segments[index].length
+        values = legendre.legvander(xi, self._order + 2) @ _integrals(self._order, 2 - derivative)
+        degree = np.arange(self._order + 1)
+        unit_energy = np.sqrt((2 * degree + 1) / (length * self._stiffness[index]))
+        return np.asarray(values * unit_energy * (length / 2) ** (2 - derivative))
+
+    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
+        deflection, slope = self._front[segment]
+        rows = np.zeros((len(xi), self._size))
+        if derivative == 0:
+            rows += deflection + np.outer(self.segments[segment].length * (1 + xi) / 2, slope)
+        elif derivative == 1:
+            rows += slope
+        rows[:, self._columns[segment]] += self._local(segment, xi, derivative)
+        return rows
+
+
+@cache
+def _integrals(order: int, times: int) -> Array:
+    """Legendre coefficients of P_0..P_order integrated from -1 ``times`` times, shape (order + 3, order + 1)."""
+    integrated = legendre.legint(np.eye(order + 1), m=times, lbnd=-1) if times else np.eye(order + 1)
+    coefficients = np.zeros((order + 3, order + 1))
+    coefficients[: len(integrated)] = integrated
+    return coefficients

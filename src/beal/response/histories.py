@@ -1,0 +1,108 @@
+"""Time histories at the sensors, and the growth that they show."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beal.errors import ModelError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Motion of a vehicle over time.
+
+    Parameters
+    ----------
+    time : ndarray, shape (k,)
+        In s.
+    sensors : tuple of str
+        Names, in the order of the rows below.
+    displacement, rate, slope : ndarray, shape (sensors, k)
+        In m, m/s and rad. At a joint's station, of the face aft of it.
+    coordinates, coordinate_rates : ndarray, shape (k, n)
+        q and q' in the coordinates of the operators: ``operators.shape(x) @ coordinates.T`` is the deflection
+        at x.
+    thrust : float
+        In N.
+    method : {"newmark", "exact"}
+    step : float
+        In s.
+    mu : ndarray of complex
+        The eigenvalues omega^2 of the modes that were kept, rigid-body motions included, in rad^2/s^2.
+    """
+
+    time: Array
+    sensors: tuple[str, ...]
+    displacement: Array
+    rate: Array
+    slope: Array
+    coordinates: Array
+    coordinate_rates: Array
+    thrust: float
+    method: str
+    step: float
+    mu: NDArray[np.complex128]
+
+    def index(self, sensor: str) -> int:
+        """Row of a sensor."""
+        if sensor not in self.sensors:
+            raise ModelError(f"sensor: must be one of {', '.join(self.sensors)}, found {sensor!r}")
+        return self.sensors.index(sensor)
+
+    def trajectory(self, sensor: str) -> tuple[Array, Array]:
+        """Displacement [m] and rate [m/s] of a sensor, the phase plane, shape (k,) each."""
+        row = self.index(sensor)
+        return self.displacement[row], self.rate[row]
+
+
+def growth_rate(response: Response, sensor: str) -> float:
+    """Rate a, in 1/s, at which a sensor's displacement grows as exp(a t) over the second half.
+
+    A motion that swings is judged by the differences between successive turning points, which an offset does
+    not change, a motion that does not by its size. For comparison with the real part of the eigenvalue: it
+    holds once the fastest growing mode dominates, and is about 0 for a bounded motion.
+
+    Parameters
+    ----------
+    response : Response
+    sensor : str
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ModelError
+        If the sensor does not exist or does not move.
+    """
+    late = response.time >= response.time[-1] / 2
+    time = response.time[late]
+    displacement, rate = (history[late] for history in response.trajectory(sensor))
+    if not displacement.any():
+        raise ModelError(f"sensor {sensor!r}: does not move in the second half, no growth can be told")
+    turn = np.flatnonzero(rate[:-1] * rate[1:] < 0)
+    if len(turn) >= 4:
+        instants, peaks = _turning_points(time, displacement, rate, turn)
+        time, displacement = (instants[1:] + instants[:-1]) / 2, np.diff(peaks)
+    moving = displacement != 0
+    return float(np.polyfit(time[moving], np.log(abs(displacement[moving])), 1)[0])
+
+
+def _turning_points(
+    time: Array, displacement: Array, rate: Array, turn: NDArray[np.intp]
+) -> tuple[Array, Array]:
+    """Times and displacements of the turning points behind the indices ``turn``, by cubic interpolation."""
+    h = time[turn + 1] - time[turn]
+    y0, y1, v0, v1 = displacement[turn], displacement[turn + 1], h * rate[turn], h * rate[turn + 1]
+    s = v0 / (v0 - v1)
+    cubic = (
+        (1 + 2 * s) * (1 - s) ** 2 * y0
+        + s * (1 - s) ** 2 * v0
+        + s**2 * (3 - 2 * s) * y1
+        - s**2 * (1 - s) * v1
+    )
+    return time[turn] + s * h, cubic

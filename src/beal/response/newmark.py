@@ -1,0 +1,104 @@
+"""Newmark's method for M q'' + K q = f."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+
+from beal.errors import ModelError
+from beal.response.march import march
+
+Array = NDArray[np.float64]
+
+
+def newmark(
+    mass: Array,
+    stiffness: Array,
+    load: Array,
+    start: tuple[Array, Array],
+    step: float,
+    beta: float = 0.25,
+    gamma: float = 0.5,
+) -> tuple[Array, Array, Array]:
+    """Time history of M q'' + K q = f with a constant step h.
+
+        q1  = q0 + h q0' + h^2 ((1/2 - beta) q0'' + beta q1'')
+        q1' = q0' + h ((1 - gamma) q0'' + gamma q1'')
+
+    As the equation is linear, a step is one matrix that acts on (q, h q', h^2 q''): M + beta h^2 K is
+    factorised once.
+
+    Parameters
+    ----------
+    mass, stiffness : ndarray, shape (n, n)
+        M and K; K need be neither symmetric nor regular.
+    load : ndarray, shape (k + 1, n)
+        f at the times 0, h, ..., k h.
+    start : pair of ndarray, shape (n,)
+        q and q' at time 0.
+    step : float
+        h, in s.
+    beta, gamma : float
+        1/4 and 1/2 for constant mean acceleration, 1/6 and 1/2 for linear acceleration, 0 and 1/2 for central
+        differences.
+
+    Returns
+    -------
+    q, rate, acceleration : ndarray, shape (k + 1, n)
+
+    Raises
+    ------
+    ModelError
+        If beta or gamma makes the method unstable at every step.
+
+    Notes ----- N. M. Newmark (1959), A method of computation for structural dynamics, J. Eng. Mech. Div.
+    85(3), 67-94. Of second order for gamma = 1/2, of first order with numerical damping for gamma > 1/2.
+    Where 2 beta < gamma the step must stay below ``largest_step``.
+
+    Examples
+    --------
+    >>> spring = np.array([[4.0]])
+    >>> rest = np.array([1.0]), np.array([0.0])
+    >>> q, _, _ = newmark(np.eye(1), spring, np.zeros((1001, 1)), rest, step=np.pi / 1000)
+    >>> round(float(q[-1, 0]), 4)
+    1.0
+    """
+    check_parameters(beta, gamma)
+    identity, zero = np.eye(len(mass)), np.zeros_like(mass)
+    predict_q = np.hstack([identity, identity, (0.5 - beta) * identity])
+    predict_rate = np.hstack([zero, identity, (1 - gamma) * identity])
+    factors = lu_factor(mass + beta * step**2 * stiffness)
+    from_load = step**2 * np.asarray(lu_solve(factors, identity))
+    acceleration = -from_load @ stiffness @ predict_q
+    transition = np.vstack(
+        [predict_q + beta * acceleration, predict_rate + gamma * acceleration, acceleration]
+    )
+    forcing = load[1:] @ np.vstack([beta * from_load, gamma * from_load, from_load]).T
+    q, rate = start
+    first = np.linalg.solve(mass, load[0] - stiffness @ q)
+    states = march(
+        [transition], np.zeros(len(forcing), dtype=np.intp), forcing, np.r_[q, step * rate, step**2 * first]
+    )
+    q, rate, acceleration = np.split(states, 3, axis=1)
+    return q, rate / step, acceleration / step**2
+
+
+def check_parameters(beta: float, gamma: float) -> None:
+    """Refuses parameters with which no step is stable (and NaN)."""
+    if not gamma >= 0.5:
+        raise ModelError(
+            f"gamma: must be at least 1/2, found {gamma}; "
+            "below, the method has negative damping and every motion grows"
+        )
+    if not beta >= 0:
+        raise ModelError(f"beta: must not be negative, found {beta}; 1/4 is stable with every step")
+
+
+def largest_step(angular_frequency: float, beta: float, gamma: float) -> float:
+    """Largest stable step for an undamped mode, in s: 1 / (omega sqrt(gamma/2 - beta)).
+
+    Every step is stable where 2 beta >= gamma. T. J. R. Hughes (1987), The Finite Element Method, Eq.
+    (9.2.16) without damping.
+    """
+    return math.inf if 2 * beta >= gamma else 1 / (angular_frequency * math.sqrt(gamma / 2 - beta))

@@ -1,0 +1,212 @@
+"""From a vehicle, its thrust, its forces and a start to time histories."""
+
+import math
+import warnings
+from typing import Literal, get_args
+
+import numpy as np
+
+from beal.discretise import discretise
+from beal.discretise.operators import Operators
+from beal.errors import ModelError
+from beal.response import signals
+from beal.response.exact import exact
+from beal.response.histories import Response
+from beal.response.initial import Initial
+from beal.response.newmark import check_parameters, largest_step, newmark
+from beal.response.reduction import ReducedEquations, reduce
+from beal.vehicle.vehicle import Vehicle
+
+Method = Literal["newmark", "exact"]
+RESOLVED_MODE = 4  # the elastic mode up to which the default step resolves the motion
+STEPS_PER_PERIOD, FEWEST_STEPS_PER_PERIOD = 40, 10
+MOST_STEPS = 1_000_000
+
+
+class CoarseStepWarning(RuntimeWarning):
+    """The step of Newmark's method is too long for the motion of interest; the message says by how much."""
+
+
+def response(
+    model: Vehicle | Operators,
+    duration: float,
+    thrust: float | None = None,
+    *,
+    step: float | None = None,
+    method: Method = "newmark",
+    initial: Initial | None = None,
+    modes: int = 12,
+    rigid_body: bool = True,
+    beta: float = 0.25,
+    gamma: float = 0.5,
+) -> Response:
+    """Motion of a vehicle under a constant thrust and its transverse forces, read at its sensors.
+
+    Solves M q'' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest modes of the loaded vehicle.
+
+    Parameters
+    ----------
+    model : Vehicle or Operators
+    duration : float
+        In s.
+    thrust : float, optional
+        P, in N; by default the vehicle's nominal thrust.
+    step : float, optional
+        In s; shortened such that the duration is a whole number of steps. By default a fortieth of the
+        shortest period among the four lowest elastic modes and the sine forces.
+    method : {"newmark", "exact"}
+        ``exact`` has no error of the step, which then only spaces the output.
+    initial : Initial, optional
+        ``ModeShape``, ``Release`` or ``Samples``; by default at rest, which needs a force.
+    modes : int
+        Elastic modes that are kept.
+    rigid_body : bool
+        Whether the vehicle's rigid-body motion is part of the response. Under a follower thrust it drifts
+        with the elastic motion but, with joints that balance moments, does not act back on it.
+    beta, gamma : float
+        Of Newmark's method.
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    ModelError
+        If there is nothing to read or nothing moves, or an option is out of range.
+    ConvergenceError
+        If the motion outgrows the range of floating-point numbers.
+
+    Warns
+    -----
+    CoarseStepWarning
+        If Newmark's step is longer than a tenth of the shortest period of interest.
+
+    Notes ----- The quasi-static deflection of the modes left out under F(t) is missing. An instability in a
+    mode beyond ``modes`` does not show.
+
+    Examples
+    --------
+    >>> from beal.response import Release
+    >>> from beal.vehicle import Sensor, catalog
+    >>> column = catalog.beck().model_copy(update={"sensors": (Sensor(name="tip", station=1.0),)})
+    >>> bent = Release(0.01, station=1.0)  # mostly the first mode, which is back after its period
+    >>> motion = response(column, duration=2 * np.pi / 3.5160153, thrust=0.0, initial=bent)
+    >>> round(float(motion.displacement[0, -1]), 3)
+    0.01
+    """
+    operators = discretise(model) if isinstance(model, Vehicle) else model
+    vehicle = operators.vehicle
+    _check_options(duration, step, method, modes)
+    _check_content(vehicle, initial)
+    check_parameters(beta, gamma)
+    thrust = _thrust(vehicle, thrust)
+    reduced = reduce(operators, thrust, modes, rigid_body)
+    shortest = _shortest_period(reduced, vehicle)
+    count = _count(duration, step or shortest / STEPS_PER_PERIOD)
+    step = duration / count
+    start = (0.0 * reduced.mu.real, 0.0 * reduced.mu.real)
+    if initial is not None:
+        q, rate = initial.coordinates(operators)
+        start = reduced.W.T @ operators.M @ q, reduced.W.T @ operators.M @ rate
+    loads = [force.signal for force in vehicle.forces]
+    shapes = reduced.W.T @ operators.shape([force.station for force in vehicle.forces]).T
+    if method == "exact":
+        p, p_rate = exact(reduced.A, shapes, loads, start, step, count)
+    else:
+        _check_step(step, shortest, float(np.sqrt(abs(reduced.mu[-1]))), beta, gamma)
+        load = np.array([signals.samples(signal, step, count + 1) for signal in loads]).reshape(-1, count + 1)
+        p, p_rate, _ = newmark(np.eye(len(reduced.A)), reduced.A, (shapes @ load).T, start, step, beta, gamma)
+    return _read(operators, reduced, p, p_rate, thrust, method, step)
+
+
+def _read(
+    operators: Operators,
+    reduced: ReducedEquations,
+    p: signals.Array,
+    p_rate: signals.Array,
+    thrust: float,
+    method: str,
+    step: float,
+) -> Response:
+    """The histories at the sensors from those of the reduced coordinates."""
+    sensors = operators.vehicle.sensors
+    stations = [sensor.station for sensor in sensors]
+    q, q_rate = p @ reduced.X.T, p_rate @ reduced.X.T
+    deflection, slope = (operators.shape(stations, derivative) for derivative in (0, 1))
+    return Response(
+        time=step * np.arange(len(q), dtype=float),
+        sensors=tuple(sensor.name for sensor in sensors),
+        displacement=deflection @ q.T,
+        rate=deflection @ q_rate.T,
+        slope=slope @ q.T,
+        coordinates=q,
+        coordinate_rates=q_rate,
+        thrust=thrust,
+        method=method,
+        step=step,
+        mu=reduced.mu,
+    )
+
+
+def _check_options(duration: float, step: float | None, method: str, modes: int) -> None:
+    if not 0 < duration < math.inf:
+        raise ModelError(f"duration: must be positive and finite, found {duration}")
+    if step is not None and not 0 < step <= duration:
+        raise ModelError(
+            f"step: must be positive and no longer than the duration, {duration:g}, found {step}"
+        )
+    if method not in get_args(Method):
+        raise ModelError(f"method: must be one of {', '.join(get_args(Method))}, found {method!r}")
+    if modes < 1:
+        raise ModelError(f"modes: must be at least 1, found {modes}")
+
+
+def _check_content(vehicle: Vehicle, initial: Initial | None) -> None:
+    if not vehicle.sensors:
+        raise ModelError(
+            "sensor: a response is read at sensors, found none; "
+            f'add one, such as [[sensor]] name = "imu" station = {0.12 * vehicle.length:g}'
+        )
+    if initial is None and not vehicle.forces:
+        raise ModelError("initial: nothing moves the vehicle; add a [[force]] or give an initial deflection")
+
+
+def _thrust(vehicle: Vehicle, thrust: float | None) -> float:
+    thrust = vehicle.thrust.nominal if thrust is None else thrust
+    if thrust is None:
+        raise ModelError("thrust: give one, or set thrust.nominal in the model")
+    if not 0 <= thrust < math.inf:
+        raise ModelError(f"thrust: must be finite and not negative, found {thrust}")
+    return thrust
+
+
+def _shortest_period(reduced: ReducedEquations, vehicle: Vehicle) -> float:
+    """The shortest period of interest: of the lowest elastic modes, and of the sine forces."""
+    resolved = reduced.mu[: reduced.rigid + RESOLVED_MODE][-1]
+    forced = [signals.angular_frequency(force.signal) for force in vehicle.forces]
+    return 2 * math.pi / max([float(np.sqrt(abs(resolved))), *forced])
+
+
+def _count(duration: float, step: float) -> int:
+    count = math.ceil(duration / step * (1 - 1e-12))  # a step that divides the duration stays as it is
+    if count > MOST_STEPS:
+        raise ModelError(
+            f"step: at most {MOST_STEPS} steps are taken, found {count}; shorten the duration or the step"
+        )
+    return count
+
+
+def _check_step(step: float, shortest: float, highest: float, beta: float, gamma: float) -> None:
+    if step >= (stable := largest_step(highest, beta, gamma)):
+        raise ModelError(
+            f"step: with beta = {beta:g} and gamma = {gamma:g} it must be shorter than {stable:.3g}, "
+            f"found {step:.3g}; shorten it, keep fewer modes, or use beta >= gamma/2"
+        )
+    if step > shortest / FEWEST_STEPS_PER_PERIOD:
+        warnings.warn(
+            f"the step {step:.3g} is longer than a tenth of the shortest period of interest, {shortest:.3g}; "
+            'shorten it or use method = "exact"',
+            CoarseStepWarning,
+            stacklevel=3,
+        )

@@ -1,0 +1,252 @@
+"""The first instability of an undamped pencil, found along the ridges of its characteristic function.
+
+While the vehicle is stable, D(P, .) = det(K(P) - W M) has real roots only, and one extremum between neighbours.
+(-1)^i D at that extremum, the height E_i(P) of the ridge between roots i and i + 1, is a smooth function of the
+thrust whose first simple zero is the coalescence of the two; where they cross without coupling it touches zero and
+stays positive. D(P, 0) plays the same part for divergence. A tongue of flutter that is too narrow for any sweep of
+eigenvalues is a shallow dip of a smooth curve: cubic Hermite interpolation between coarse thrusts shows it, and
+intervals in which it dips are looked at again.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beal.errors import ConvergenceError
+from beal.stability.double_root import CriticalPoint, coalescence, divergence
+from beal.stability.pencil import Array, ComplexArray, Pencil
+
+Kind = Literal["flutter", "divergence"]
+
+WATCHED = 8  # elastic modes between which coalescence is looked for
+REAL = 1e-4  # relative imaginary part up to which rounding may split a pair of real roots that nearly meet
+ZERO = 1e-6  # |W| below this share of the pencil's shift is zero to rounding
+FLAT = 1e-9  # height, as a share of the ridge's at the start, above which -height still counts as touching zero
+DIP = 0.5  # an interval is looked at again where a ridge dips below this share of its height at both ends
+NARROW = 1e-7  # share of the thrust searched below which an interval is not divided further
+
+
+@dataclass(frozen=True)
+class Instability:
+    """The first critical point, its kind and the elastic modes that meet, counted from 1 (0: a rigid-body root)."""
+
+    point: CriticalPoint
+    kind: Kind
+    modes: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class State:
+    """What is known of the pencil at one thrust.
+
+    Parameters
+    ----------
+    thrust : float
+    roots : ndarray, shape (n,)
+        W in order of the real parts.
+    real : bool
+        Whether the watched roots are real to rounding; only then the ridges are known.
+    stable : bool
+    ridges, heights, slopes : ndarray, shape (ridges,)
+        W of each ridge, the height there and its derivative with respect to thrust. First W = 0 for divergence.
+    """
+
+    thrust: float
+    roots: ComplexArray
+    real: bool
+    stable: bool
+    ridges: Array
+    heights: Array
+    slopes: Array
+
+
+class Search:
+    """Looks for the first instability of a reduced pencil up to a thrust.
+
+    Parameters
+    ----------
+    pencil : Pencil
+        Reduced: few coordinates, diagonal M.
+    limit : float
+        The thrust to search to.
+    steps : int
+        Coarse intervals of thrust to begin with.
+    """
+
+    def __init__(self, pencil: Pencil, limit: float, steps: int) -> None:
+        self.pencil, self.limit, self.steps = pencil, limit, steps
+        self._drift = _rigid_body_root(pencil, limit)
+        self._lowest = int(self._drift == "tumbling")  # the root that must not turn negative
+        self._pairs = min(WATCHED + pencil.rigid, len(pencil.M)) - 1
+        self._sign = (-1.0) ** np.arange(self._pairs + 1)
+        self._scale = np.ones(self._pairs + 1)
+        start = [np.abs(self.state(thrust).heights) for thrust in (0.0, limit / steps)]
+        self._scale = np.max([height for height in start if len(height)], axis=0)
+
+    def state(self, thrust: float) -> State:
+        """Roots and ridges at one thrust."""
+        roots = self.pencil.roots(thrust)
+        low = roots[: self._pairs + 1]
+        nothing = np.empty(0)
+        if np.any(np.abs(low.imag) > REAL * np.abs(low.real) + ZERO * self.pencil.shift):
+            return State(thrust, roots, False, False, nothing, nothing, nothing)
+        ridges = np.append(0.0, _ridges(roots, self._pairs))
+        delta = 1e-6 * self.limit
+        before, here, after = (self._sign * self._determinants(thrust + d, ridges) for d in (-delta, 0.0, delta))
+        heights, slopes = here / self._scale, (after - before) / (2 * delta * self._scale)
+        if self._drift:  # D(P, 0) carries the rigid-body root and says nothing of the elastic ones
+            heights[0], slopes[0] = 1.0, 0.0
+        diverged = roots[self._lowest].real < -ZERO * self.pencil.shift
+        stable = bool(np.all(heights > -FLAT)) and not diverged
+        return State(thrust, roots, True, stable, ridges, heights, slopes)
+
+    def _determinants(self, thrust: float, W: Array) -> Array:
+        return np.asarray(np.linalg.det(self.pencil.stiffness(thrust) - W[:, None, None] * self.pencil.M))
+
+    def first(self) -> Instability | None:
+        """The first instability, or None up to the limit.
+
+        Raises
+        ------
+        ConvergenceError
+            If an unstable interval was bracketed but its critical point could not be resolved.
+        """
+        left = self.state(0.0)
+        if abs(left.roots[self.pencil.rigid]) < ZERO * self.pencil.shift:  # a mechanism: a joint without stiffness
+            probe = self.state(NARROW * self.limit)
+            if not probe.stable:
+                kind: Kind = "divergence" if probe.real else "flutter"
+                pair = (1, 1) if probe.real else _meeting(probe.roots)
+                zero = np.zeros(len(self.pencil.M))
+                return Instability(CriticalPoint(0.0, 0.0, True, 0.0, zero, zero), kind, pair)
+        for thrust in np.linspace(0.0, self.limit, self.steps + 1)[1:]:
+            right = self.state(float(thrust))
+            if found := self._within(left, right):
+                return found
+            left = right
+        return None
+
+    def _within(self, left: State, right: State) -> Instability | None:
+        """The first instability between a stable state and another one."""
+        narrow = right.thrust - left.thrust < NARROW * self.limit
+        if right.stable:
+            dip = None if narrow else _dip(left, right)
+            if dip is None:
+                return None
+            return self._halves(left, self.state(dip), right)
+        for guess in self._guesses(left, right):
+            if found := self._confirmed(left, right, *guess):
+                return found
+        if narrow:
+            raise ConvergenceError(
+                f"an instability between thrusts {left.thrust:.9g} and {right.thrust:.9g} could not be resolved; "
+                "use the complete search"
+            )
+        return self._halves(left, self.state((left.thrust + right.thrust) / 2), right)
+
+    def _halves(self, left: State, middle: State, right: State) -> Instability | None:
+        return self._within(left, middle) or (self._within(middle, right) if middle.stable else None)
+
+    def _guesses(self, left: State, right: State) -> Iterator[tuple[Kind, float, float]]:
+        """(kind, thrust, W) of critical points that would explain an unstable state, the likeliest first."""
+        span = right.thrust - left.thrust
+        if right.real:
+            below = np.flatnonzero(right.heights < -FLAT)
+            shares = [(_first_zero(left, right, ridge), ridge) for ridge in below]
+            for share, ridge in sorted(shares):
+                W = (1 - share) * left.ridges[ridge] + share * right.ridges[ridge]
+                yield ("divergence" if ridge == 0 else "flutter"), left.thrust + share * span, W
+            first, last = left.roots[self.pencil.rigid].real, right.roots[self._lowest].real
+            if last < 0 < first:
+                yield "divergence", left.thrust + span * first / (first - last), 0.0
+            return
+        split = np.flatnonzero(right.roots[:-1].imag != 0)
+        for i in split[:1]:
+            before, after = ((state.roots[i + 1] - state.roots[i]) ** 2 for state in (left, right))
+            share = before.real / (before.real - after.real)
+            if 0 < share < 1:
+                means = [(state.roots[i + 1] + state.roots[i]).real / 2 for state in (left, right)]
+                yield "flutter", left.thrust + share * span, (1 - share) * means[0] + share * means[1]
+
+    def _confirmed(self, left: State, right: State, kind: Kind, thrust: float, W: float) -> Instability | None:
+        """The instability next to a guess, if it lies in the interval and nothing comes before it."""
+        neutral = kind == "divergence" and self._drift == "neutral"
+        point = divergence(self.pencil, thrust, neutral) if kind == "divergence" else coalescence(self.pencil, thrust, W)
+        inside = left.thrust < point.thrust <= right.thrust
+        if not (point.converged and inside):
+            return None
+        nearest = 1e-3 if neutral else 1e-5  # a root that meets a zero one is lost in rounding closer by
+        margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
+        before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
+        if not before.stable or after.stable or self._within(left, before):
+            return None
+        modes = (1, 1)
+        if kind == "flutter":
+            low = before.roots[: self._pairs + 1].real
+            pair = int(np.argmin(np.abs(low[1:] - point.W) + np.abs(low[:-1] - point.W)))
+            modes = (pair + 1 - self.pencil.rigid, pair + 2 - self.pencil.rigid)
+        return Instability(point, kind, modes)
+
+
+def _rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tumbling"]:
+    """Where the rigid-body root goes under thrust: it stays zero, or turns negative and the vehicle tumbles."""
+    if not pencil.rigid:
+        return ""
+    lowest = [pencil.roots(share * limit)[0].real for share in (0.0013, 0.0029)]
+    if max(np.abs(lowest)) < ZERO * pencil.shift:
+        return "neutral"
+    return "tumbling" if min(lowest) < 0 else ""
+
+
+def _meeting(roots: ComplexArray) -> tuple[int, int]:
+    first = int(np.flatnonzero(roots.imag != 0)[0]) + 1
+    return first, first + 1
+
+
+def _ridges(roots: ComplexArray, pairs: int) -> Array:
+    """W of the extremum of D between neighbours of the lowest roots: sum over j of 1/(W_j - W) = 0, shape (pairs,).
+
+    The two neighbours are taken exactly, the others as constant over one step.
+    """
+    low, high = roots[:pairs].real, roots[1 : pairs + 1].real
+    middle, half = (low + high) / 2, (high - low) / 2
+    others = np.ones((pairs, len(roots)), dtype=bool)
+    index = np.arange(pairs)
+    others[index, index] = others[index, index + 1] = False
+    W = middle
+    for _ in range(6):
+        distance = np.where(others, roots - W[:, None], 1.0)
+        near = np.abs(distance) < 1e-300
+        rest = np.where(others & ~near, (1 / np.where(near, 1.0, distance)).real, 0.0).sum(axis=1)
+        W = middle - rest * half**2 / (1 + np.sqrt(1 + (rest * half) ** 2))
+    return W
+
+
+def _cubic(left: State, right: State, ridge: int | slice) -> tuple[Array, Array, Array, Array]:
+    """Coefficients in t = share of the interval of the cubic through heights and slopes, lowest power first."""
+    span = right.thrust - left.thrust
+    a, b = left.heights[ridge], right.heights[ridge]
+    da, db = span * left.slopes[ridge], span * right.slopes[ridge]
+    return a, da, 3 * (b - a) - 2 * da - db, 2 * (a - b) + da + db
+
+
+def _first_zero(left: State, right: State, ridge: int) -> float:
+    """Share of the interval at which a ridge first falls to zero."""
+    coefficients = [float(c) for c in _cubic(left, right, ridge)]
+    zeros = np.roots(coefficients[::-1])
+    inside = [z.real for z in zeros if abs(z.imag) < 1e-9 and 0 < z.real <= 1]
+    return min(inside, default=left.heights[ridge] / (left.heights[ridge] - right.heights[ridge]))
+
+
+def _dip(left: State, right: State) -> float | None:
+    """Thrust of the deepest dip of a ridge inside an interval that deserves another look, if any."""
+    c0, c1, c2, c3 = _cubic(left, right, slice(None))
+    t: NDArray[np.float64] = np.linspace(0.1, 0.9, 17)[:, None]
+    depth = (c0 + t * (c1 + t * (c2 + t * c3))) / np.maximum(np.minimum(left.heights, right.heights), FLAT)
+    row, ridge = np.unravel_index(np.argmin(depth), depth.shape)
+    if depth[row, ridge] > DIP or min(left.heights[ridge], right.heights[ridge]) < FLAT:
+        return None
+    return float(left.thrust + t[row, 0] * (right.thrust - left.thrust))

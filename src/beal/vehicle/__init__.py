@@ -1,0 +1,1 @@
+"""What the user describes: the parts of a vehicle, the vehicle, its file format and a catalog."""

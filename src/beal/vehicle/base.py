@@ -1,0 +1,93 @@
+"""What every part of a vehicle shares: frozen, validated, every problem named by its path."""
+
+import math
+from typing import Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
+
+from beal.errors import ModelError
+from beal.units import to_si
+
+
+class _Checked(type(BaseModel)):  # type: ignore[misc]
+    """Turns pydantic's report into a ModelError, for direct construction only: nested parts keep their paths."""
+
+    def __call__(cls, **fields: Any) -> Any:
+        try:
+            return super().__call__(**fields)
+        except ValidationError as error:
+            raise ModelError(problems(error, cls)) from None
+
+
+class Part(BaseModel, metaclass=_Checked):
+    """Base of the vehicle's parts: immutable, and refuses keys that it does not know."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
+
+
+def problems(error: ValidationError, root: type[BaseModel]) -> list[tuple[str, str]]:
+    """The pydantic errors as (path, message) with paths as the model file writes them."""
+    return [(path(item["loc"]), _message(item, root)) for item in error.errors(include_url=False)]
+
+
+def path(loc: tuple[int | str, ...]) -> str:
+    """``("stage", 1, "length")`` as ``stage[1].length``."""
+    text = ""
+    for before, part in zip(("", *loc), loc, strict=False):
+        if isinstance(part, int):
+            text += f"[{part}]"
+        elif before != "signal":  # what follows there is the tag of the signal's kind
+            text += f".{part}" if text else part
+    return text
+
+
+def _message(item: Any, root: type[BaseModel]) -> str:
+    kind, found = item["type"], item.get("input")
+    if kind == "extra_forbidden":
+        return f"unknown key; known here: {', '.join(_known_keys(root, item['loc'][:-1]))}"
+    if kind == "missing":
+        return "is required and missing"
+    message = str(item["msg"]).removeprefix("Value error, ")
+    message = message.replace("Input should be", "must be").replace("Input", "input")
+    return message if "found" in message else f"{message}, found {_short(found)}"
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _known_keys(root: Any, loc: tuple[int | str, ...]) -> list[str]:
+    """Keys of the part that ``loc`` points into, found by walking the annotations."""
+    for name in loc:
+        if isinstance(name, int) or not hasattr(root, "model_fields"):
+            continue
+        fields = {field.alias or key: field.annotation for key, field in root.model_fields.items()}
+        root = _part_in(fields.get(name)) or root
+    return [field.alias or key for key, field in root.model_fields.items()]
+
+
+def _part_in(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    for argument in getattr(annotation, "__args__", ()):
+        if (part := _part_in(argument)) is not None:
+            return part
+    return None
+
+
+def si(unit: str) -> BeforeValidator:
+    """Marks a float that is kept in ``unit`` and may be given as a string with any compatible unit."""
+
+    def parse(value: Any, info: ValidationInfo) -> Any:
+        if isinstance(value, bool):
+            raise ValueError("must be a number, found a boolean")
+        if isinstance(value, str):
+            if info.context and info.context.get("units") == "nondimensional":
+                raise ValueError(f"a nondimensional model takes plain numbers, found {value!r}")
+            value = to_si(value, unit)
+        if isinstance(value, float) and math.isnan(value):
+            raise ValueError("must be a number, found nan")
+        return value
+
+    return BeforeValidator(parse)

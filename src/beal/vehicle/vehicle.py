@@ -1,0 +1,183 @@
+"""The vehicle: all its parts, checked against each other."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
+from typing import Any, Literal
+
+from pydantic import Field, ValidationError, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from beal.vehicle.base import Part
+from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Reference length [m], mass per length [kg/m] and bending stiffness [N m^2] of the non-dimensional form.
+
+    Irani & Kavianipour (2009), Eq. (6): the whole length, and the first stage's properties.
+    """
+
+    length: float
+    mass_per_length: float
+    bending_stiffness: float
+
+    @property
+    def thrust(self) -> float:
+        """EI/L^2, in N."""
+        return self.bending_stiffness / self.length**2
+
+    @property
+    def time(self) -> float:
+        """sqrt(m L^4/EI), in s."""
+        return math.sqrt(self.mass_per_length * self.length**4 / self.bending_stiffness)
+
+    @property
+    def angular_frequency(self) -> float:
+        """1/time, in rad/s."""
+        return 1.0 / self.time
+
+
+class Vehicle(Part):
+    """A flexible vehicle: stages from nose to tail, the joints between them, masses, supports and loads.
+
+    Parameters
+    ----------
+    stages : sequence of Stage
+        From nose (x = 0) to tail (x = L).
+    joints : sequence of Joint
+        One fewer than the stages, in order.
+    point_masses : sequence of PointMass
+    support : Support
+    thrust : Thrust
+    sensors : sequence of Sensor
+    forces : sequence of Force
+    title : str
+    units : {"SI", "nondimensional"}
+
+    Raises
+    ------
+    ModelError
+        With every problem and its path.
+
+    Examples
+    --------
+    >>> beam = Stage(length=0.5, mass_per_length=1.0, bending_stiffness=1.0)
+    >>> Vehicle(stages=[beam, beam], joints=[Joint(rotational_stiffness=10.0)]).length
+    1.0
+    """
+
+    title: str = ""
+    units: Literal["SI", "nondimensional"] = "SI"
+    stages: tuple[Stage, ...] = Field(alias="stage")
+    joints: tuple[Joint, ...] = Field(alias="joint", default=())
+    point_masses: tuple[PointMass, ...] = Field(alias="point_mass", default=())
+    support: Support = Support()
+    thrust: Thrust = Thrust()
+    sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
+    forces: tuple[Force, ...] = Field(alias="force", default=())
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _fits_together(cls, data: Any, handler: Any) -> "Vehicle":
+        """Checks across parts run even where a part is wrong, so that all problems are reported at once."""
+        found = [_detail(*problem) for problem in _misfits(data)] if isinstance(data, dict) else []
+        try:
+            vehicle: Vehicle = handler(data)
+        except ValidationError as error:
+            errors = [_again(item) for item in error.errors(include_url=False)]
+            raise ValidationError.from_exception_data(cls.__name__, errors + found) from None
+        if found:
+            raise ValidationError.from_exception_data(cls.__name__, found)
+        return vehicle
+
+    @cached_property
+    def boundaries(self) -> tuple[float, ...]:
+        """Stations of the stages' ends, from 0 to the length, in m."""
+        return tuple(accumulate((stage.length for stage in self.stages), initial=0.0))
+
+    @property
+    def length(self) -> float:
+        """Whole length, in m."""
+        return self.boundaries[-1]
+
+    @property
+    def mass(self) -> float:
+        """Total mass, in kg."""
+        return sum(s.length * s.mass_per_length for s in self.stages) + sum(p.mass for p in self.point_masses)
+
+    @property
+    def centre_of_mass(self) -> float:
+        """Station of the centre of mass, in m."""
+        stages = zip(self.stages, self.boundaries, strict=False)
+        moment = sum(s.length * s.mass_per_length * (x + s.length / 2) for s, x in stages)
+        return (moment + sum(p.mass * p.station for p in self.point_masses)) / self.mass
+
+    @property
+    def free_free(self) -> bool:
+        """Whether neither end is held."""
+        return self.support.nose == self.support.tail == "free"
+
+    @property
+    def axial_force(self) -> Literal["inertia", "constant"]:
+        """The axial force law in force, the default resolved."""
+        return self.thrust.axial_force or ("inertia" if self.free_free else "constant")
+
+    @property
+    def scales(self) -> Scales:
+        """Reference quantities of the non-dimensional form."""
+        return Scales(self.length, self.stages[0].mass_per_length, self.stages[0].bending_stiffness)
+
+    def stage_at(self, station: float) -> int:
+        """Index of the stage that holds a station; a joint's station belongs to the stage aft of it."""
+        inner = self.boundaries[1:-1]
+        tolerance = 1e-12 * self.length
+        return sum(station >= x - tolerance for x in inner)
+
+
+def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+    """(location, message, input) of what does not fit together in raw input, as far as it can be judged."""
+    stages = _parts(data, "stage", "stages")
+    joints = _parts(data, "joint", "joints")
+    if not stages and {"stage", "stages"} & data.keys():
+        yield ("stage",), "a vehicle needs at least one stage, found none", None
+    elif stages and len(joints) != len(stages) - 1:
+        yield (
+            ("joint",),
+            f"{len(stages)} stages need {len(stages) - 1} joints (an empty [[joint]] is rigid), found {len(joints)}",
+            len(joints),
+        )
+    lengths = [_field(stage, "length") for stage in stages]
+    total = sum(lengths) if lengths and all(known(x) and x > 0 for x in lengths) else math.inf
+    for alias, name in (("point_mass", "point_masses"), ("sensor", "sensors"), ("force", "forces")):
+        for index, part in enumerate(_parts(data, alias, name)):
+            station = _field(part, "station")
+            if known(station) and station > total * (1 + 1e-12):
+                yield (alias, index, "station"), f"must lie on the vehicle, 0 to {total:.12g}, found {station}", station
+    names = [_field(sensor, "name") for sensor in _parts(data, "sensor", "sensors")]
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            yield ("sensor", index, "name"), f"must be unique, found {name!r} again", name
+
+
+def _parts(data: dict[str, Any], alias: str, name: str) -> list[Any]:
+    parts = data.get(alias, data.get(name, ()))
+    return list(parts) if isinstance(parts, list | tuple) else []
+
+
+def _field(part: Any, name: str) -> Any:
+    value = part.get(name) if isinstance(part, dict) else getattr(part, name, None)
+    return value
+
+
+def _detail(location: tuple[str | int, ...], message: str, value: Any) -> InitErrorDetails:
+    return {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}  # type: ignore[arg-type]
+
+
+def _again(item: Any) -> InitErrorDetails:
+    if item["type"] in ("value_error", "misfit") or "ctx" in item and "error" in item["ctx"]:
+        return _detail(item["loc"], str(item["msg"]).removeprefix("Value error, "), item["input"])
+    return {"type": item["type"], "loc": item["loc"], "input": item["input"], "ctx": item.get("ctx", {})}
