@@ -1,1 +1,103 @@
-"""beal: stability of flexible launch vehicles under thrust."""
+"""beal: whether a flexible launch vehicle under thrust stays stable, where it fails and how.
+
+Names are imported when they are first used, so that the command answers at once.
+"""
+
+from importlib import import_module
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from beal import plot
+    from beal.discretise.build import discretise
+    from beal.discretise.operators import Operators
+    from beal.errors import BealError, ConvergenceError, ModelError
+    from beal.response import Response, response
+    from beal.stability.complete import Event
+    from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
+    from beal.stability.curve import ThrustCurve, thrust_curve
+    from beal.stability.spectrum import Spectrum, spectrum
+    from beal.study.map import stability_map
+    from beal.vehicle import catalog
+    from beal.vehicle.file import dumps, load, loads
+    from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
+    from beal.vehicle.vehicle import Vehicle
+
+__version__ = version("beal")
+
+_HOMES = {
+    "BealError": "beal.errors",
+    "ConvergenceError": "beal.errors",
+    "CriticalThrust": "beal.stability.critical",
+    "Event": "beal.stability.complete",
+    "Force": "beal.vehicle.parts",
+    "Joint": "beal.vehicle.parts",
+    "ModelError": "beal.errors",
+    "Operators": "beal.discretise.operators",
+    "PointMass": "beal.vehicle.parts",
+    "Response": "beal.response",
+    "Sensor": "beal.vehicle.parts",
+    "Spectrum": "beal.stability.spectrum",
+    "Stage": "beal.vehicle.parts",
+    "Support": "beal.vehicle.parts",
+    "Thrust": "beal.vehicle.parts",
+    "ThrustCurve": "beal.stability.curve",
+    "Vehicle": "beal.vehicle.vehicle",
+    "catalog": "beal.vehicle.catalog",
+    "critical_events": "beal.stability.critical",
+    "critical_thrust": "beal.stability.critical",
+    "discretise": "beal.discretise.build",
+    "dumps": "beal.vehicle.file",
+    "load": "beal.vehicle.file",
+    "loads": "beal.vehicle.file",
+    "plot": "beal.plot",
+    "response": "beal.response",
+    "spectrum": "beal.stability.spectrum",
+    "stability_map": "beal.study.map",
+    "thrust_curve": "beal.stability.curve",
+}
+
+__all__ = [
+    "BealError",
+    "ConvergenceError",
+    "CriticalThrust",
+    "Event",
+    "Force",
+    "Joint",
+    "ModelError",
+    "Operators",
+    "PointMass",
+    "Response",
+    "Sensor",
+    "Spectrum",
+    "Stage",
+    "Support",
+    "Thrust",
+    "ThrustCurve",
+    "Vehicle",
+    "catalog",
+    "critical_events",
+    "critical_thrust",
+    "discretise",
+    "dumps",
+    "load",
+    "loads",
+    "plot",
+    "response",
+    "spectrum",
+    "stability_map",
+    "thrust_curve",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'beal' has no attribute {name!r}")
+    module = import_module(_HOMES[name])
+    value = getattr(module, name, module)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,8 +1,8 @@
 """The exceptions of beal.
 
-    BealError
-    ├── ModelError (ValueError)         the vehicle, study or option is not usable: what, where, what was expected
-    └── ConvergenceError (RuntimeError) the numerics could not reach the accuracy asked for
+BealError
+├── ModelError (ValueError)         the vehicle, study or option is not usable: what, where, what was expected
+└── ConvergenceError (RuntimeError) the numerics could not reach the accuracy asked for
 """
 
 from collections.abc import Sequence
@@ -19,6 +19,8 @@ class ModelError(BealError, ValueError):
     ----------
     problems : sequence of (path, message) or str
         Every problem that was found, each with the path of the quantity (``stage[1].length``), or one message.
+    source : str
+        Name of the file that they are in.
 
     Examples
     --------
@@ -26,9 +28,14 @@ class ModelError(BealError, ValueError):
     stage[1].length: must be positive, found -0.4
     """
 
-    def __init__(self, problems: str | Sequence[tuple[str, str]]) -> None:
+    def __init__(self, problems: str | Sequence[tuple[str, str]], source: str = "") -> None:
         self.problems: list[tuple[str, str]] = [("", problems)] if isinstance(problems, str) else list(problems)
-        super().__init__("\n".join(f"{path}: {message}" if path else message for path, message in self.problems))
+        lines = [f"{path}: {message}" if path else message for path, message in self.problems]
+        if source and len(lines) == 1:
+            lines = [f"{source}: {lines[0]}"]
+        elif source:
+            lines = [f"{source}: {len(lines)} problems", *(f"  {line}" for line in lines)]
+        super().__init__("\n".join(lines))
 
 
 class ConvergenceError(BealError, RuntimeError):

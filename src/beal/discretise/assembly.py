@@ -90,8 +90,11 @@ def _sample(vehicle: Vehicle, basis: Basis) -> _Samples:
     weights = np.outer(half, weight)
     stations = np.array([segment.start for segment in chain])[:, None] + np.outer(half, 1 + xi)
     stages = [vehicle.stages[segment.stage] for segment in chain]
+    deflection, slope, curvature = (np.vstack([basis.rows(i, xi, d) for i in range(len(chain))]) for d in (0, 1, 2))
     return _Samples(
-        *(np.vstack([basis.rows(i, xi, d) for i in range(len(chain))]) for d in (0, 1, 2)),
+        deflection,
+        slope,
+        curvature,
         mass=(weights * np.array([[stage.mass_per_length] for stage in stages])).ravel(),
         bending_stiffness=(weights * np.array([[stage.bending_stiffness] for stage in stages])).ravel(),
         axial_force=(weights * axial_force(vehicle, stations)).ravel(),

@@ -31,7 +31,7 @@ def segments(vehicle: Vehicle, pieces: int = 1) -> tuple[Segment, ...]:
 
     A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
     """
-    loads = [part.station for part in (*vehicle.point_masses, *vehicle.forces)]
+    loads = [lump.station for lump in vehicle.point_masses] + [force.station for force in vehicle.forces]
     chain = []
     for stage, (front, back) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False)):
         margin = SNAP * vehicle.length

@@ -1,36 +1,21 @@
 """Exact free-vibration modes of two equal uniform free-free beams joined by two springs.
 
-The admissible functions of Irani & Kavianipour (2009), Eqs. (10)-(12), in their non-dimensional form: EI = m = 1,
-total length 1, joint at x = split. At wavenumber lambda a beam that carries the moment phi'' = lambda^2 M and the
-shear phi''' = lambda^3 Q at its end answers with a deflection and a slope there that are known in closed form,
-
-    slope / lambda = e M + g Q,     deflection = -g M + h Q,
-
-so the joint leaves a symmetric 2 x 2 condition N(lambda) (M, Q) = 0,
-
-    N = [[e1 + e2 + lambda / k_r, g1 - g2], [g1 - g2, lambda^3 / k_s - h1 - h2]].
-
-Unscaled, N grows with lambda between its poles, which are the frequencies of the free beams. So the number of roots
-below lambda is the number of poles below it plus the number of positive eigenvalues of N there (Wittrick & Williams
-1971), also when 1/k_r is negative: no root is lost or found twice, however close two of them are.
+The admissible functions of Irani & Kavianipour (2009), Eqs. (10)-(12), in their non-dimensional form:
+EI = m = 1, total length 1, joint at x = split.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from beal.errors import ConvergenceError, ModelError
+from beal.discretise.joint_wavenumbers import Array, JointedBeam, wavenumbers
+from beal.errors import ModelError
 
-Array = NDArray[np.float64]
 JointSign = Literal["natural", "printed"]
-
-# Below 0.5, sin a cosh a - cos a sinh a is a difference of nearly equal numbers; its series is a^3 times this in a^4.
-_SERIES = (2 / 3, -1 / 315, 64 / math.factorial(11), -256 / math.factorial(15))
 
 
 @dataclass(frozen=True)
@@ -50,8 +35,8 @@ class JointModes:
     wavenumbers : ndarray, shape (count,)
         lambda_i, ascending; the angular frequencies are lambda_i^2.
     coefficients : ndarray, shape (2, 4, count)
-        Per stage, of cos(lambda s), sin(lambda s), exp(-lambda s) and exp(-lambda (l - s)), where s runs from the
-        free end of the stage towards the joint and l is the stage's length.
+        Per stage, of cos(lambda s), sin(lambda s), exp(-lambda s) and exp(-lambda (l - s)), where s runs from
+        the free end of the stage towards the joint and l is the stage's length.
     """
 
     split: float
@@ -82,7 +67,7 @@ class JointModes:
             return _shapes(self.wavenumbers, self.coefficients[0], self.split, points, derivative)
         length = 1.0 - self.split
         mirrored = _shapes(self.wavenumbers, self.coefficients[1], length, length - points, derivative)
-        return -mirrored if derivative % 2 else mirrored
+        return np.asarray((-1.0) ** derivative * mirrored)
 
     @property
     def jumps(self) -> Array:
@@ -95,8 +80,9 @@ class JointModes:
 
     def _jump(self, derivative: int, load: int, stiffness: float) -> Array:
         if abs(stiffness) >= 1.0:
-            return self.evaluate(1, 0.0, load)[0] / stiffness
-        return self.evaluate(1, 0.0, derivative)[0] - self.evaluate(0, self.split, derivative)[0]
+            return np.asarray(self.evaluate(1, 0.0, load)[0] / stiffness)
+        aft, forward = self.evaluate(1, 0.0, derivative)[0], self.evaluate(0, self.split, derivative)[0]
+        return np.asarray(aft - forward)
 
     @property
     def paper_coefficients(self) -> Array:
@@ -121,9 +107,10 @@ def joint_modes(
 ) -> JointModes:
     """The lowest modes of positive lambda of two equal uniform beams joined by two springs.
 
-    They satisfy phi1''(L1) = phi2''(0) = k_r [phi2'(0) - phi1'(L1)] for the natural sign, which is what the strain
-    energy asks for, or the opposite for the sign printed in Eq. (12), and phi1''' = phi2''' = k_s [phi1 - phi2].
-    The printed sign is a spring of negative stiffness: it has one mode less, whose lambda^4 is negative.
+    They satisfy phi1''(L1) = phi2''(0) = k_r [phi2'(0) - phi1'(L1)] for the natural sign, which follows from
+    the strain energy, or the opposite for the sign printed in Eq. (12), and for both
+    phi1'''(L1) = phi2'''(0) = k_s [phi1(L1) - phi2(0)]. The printed sign is a spring of negative stiffness:
+    while it is finite, the mode in which the vehicle folds has a negative lambda^4 and is left out.
 
     Parameters
     ----------
@@ -155,14 +142,15 @@ def joint_modes(
     [4.7209, 7.8285, 10.9961, 13.9661]
     """
     _check(split, rotational_stiffness, shear_stiffness, count, sign)
-    joint = _Joint(
+    compliances = [1.0 / k if k > 0 else math.inf for k in (rotational_stiffness, shear_stiffness)]
+    beam = JointedBeam(
         lengths=np.array([split, 1.0 - split]),
-        compliances=np.array([1.0 / k if k > 0 else math.inf for k in (rotational_stiffness, shear_stiffness)]),
-        rotation=-1.0 if sign == "printed" and rotational_stiffness > 0 else 1.0,
+        compliances=np.array(compliances),
+        rotation=-1.0 if sign == "printed" and compliances[0] < math.inf else 1.0,
     )
-    wavenumbers = _wavenumbers(joint, count)
-    coefficients = _normalised(joint, wavenumbers, _coefficients(joint, wavenumbers))
-    return JointModes(split, rotational_stiffness, shear_stiffness, sign, wavenumbers, coefficients)
+    found = wavenumbers(beam, count)
+    coefficients = _normalised(beam, found, _coefficients(beam, found))
+    return JointModes(split, rotational_stiffness, shear_stiffness, sign, found, coefficients)
 
 
 def _check(split: float, rotational_stiffness: float, shear_stiffness: float, count: int, sign: str) -> None:
@@ -183,119 +171,6 @@ def _check(split: float, rotational_stiffness: float, shear_stiffness: float, co
         raise ModelError(problems)
 
 
-@dataclass(frozen=True)
-class _Joint:
-    lengths: Array
-    compliances: Array  # of rotation and shear, 0 to inf
-    rotation: float  # -1 turns the rotational spring into one of negative stiffness
-
-    def shares(self, wavenumbers: Array) -> tuple[Array, Array]:
-        """Weights of the beams' and of the springs' part of N, each 0 to 1, so that both extremes are exact."""
-        beams = 1.0 / (1.0 + self.compliances[:, None] * np.stack([wavenumbers, wavenumbers**3]))
-        return beams, np.array([[self.rotation], [1.0]]) * (1.0 - beams)
-
-
-def _wavenumbers(joint: _Joint, count: int) -> Array:
-    """Zeros of the functions of `_passed`: root i is where the count of roots reaches i."""
-    # A free beam has at least z/pi - 1.51 frequencies below z, so two of them count + 0.4 below this end.
-    end = math.pi * (count + 3.5)
-    grid = np.linspace(0.0, end, 20 * (count + 4))[1:]
-    condition = _condition(joint, grid)
-    below, low, high = condition
-    index = np.arange(1, count + 1)
-    after = np.searchsorted(below + (low > 0) + (high > 0), index)
-    before = np.maximum(after - 1, 0)
-    return _bracketed_roots(
-        lambda wavenumbers: _passed(index, *_condition(joint, wavenumbers)),
-        np.where(after > 0, grid[before], 0.0),
-        grid[after],
-        np.where(after > 0, _passed(index, *(part[before] for part in condition)), -1.0),
-        _passed(index, *(part[after] for part in condition)),
-    )
-
-
-def _passed(index: NDArray[np.intp], below: Array, low: Array, high: Array) -> Array:
-    """Positive where at least `index` roots lie below, negative where fewer do, and continuous in lambda.
-
-    The eigenvalue that decides is the larger one if one is still missing and the smaller one if two are. A pole takes
-    the larger through infinity to the bottom as it raises the count by one, so the function does not notice it.
-    """
-    missing = np.clip(index - below, 0, 3).astype(np.intp)
-    one = np.ones_like(low)
-    levels = np.stack([one, high / (1.0 + np.abs(high)), low / (1.0 + np.abs(low)), -one])
-    return np.asarray(levels[missing, np.arange(index.size)], dtype=np.float64)
-
-
-def _condition(joint: _Joint, wavenumbers: Array) -> tuple[Array, Array, Array]:
-    """Poles below each wavenumber, and the two eigenvalues of N there, N scaled by a congruence.
-
-    Absent springs leave an eigenvalue at 1 for ever; the poles are counted from minus their number.
-    """
-    e, g, h, determinants, poles = _tip_receptances(joint.lengths[:, None] * wavenumbers / 2.0)
-    beams, springs = joint.shares(wavenumbers)
-    rotation = beams[0] * (e[0] + e[1]) + springs[0]
-    shear = springs[1] - beams[1] * (h[0] + h[1])
-    coupling = np.sqrt(beams[0] * beams[1]) * (g[0] - g[1])
-    # rotation * shear - coupling**2, but without the squares of poles that cancel in it
-    determinant = (
-        beams[0] * beams[1] * (determinants.sum(axis=0) + 2.0 * g[0] * g[1] - e[0] * h[1] - e[1] * h[0])
-        + beams[0] * (e[0] + e[1]) * springs[1]
-        + springs[0] * shear
-    )
-    mean = (rotation + shear) / 2.0
-    large = mean + np.copysign(np.hypot((rotation - shear) / 2.0, coupling), mean)
-    small = determinant / large
-    absent = np.count_nonzero(np.isinf(joint.compliances))
-    return poles.sum(axis=0) - absent, np.minimum(small, large), np.maximum(small, large)
-
-
-def _tip_receptances(a: Array) -> tuple[Array, Array, Array, Array, Array]:
-    """Receptances e, g, h of a free beam's end, -e h - g^2, and its poles below; a is half of lambda times length.
-
-    A load at one end is half a symmetric and half an antisymmetric pair of loads, whose poles are the zeros of
-    p = sin a cosh a + cos a sinh a and of q = sin a cosh a - cos a sinh a. All hyperbolic functions are scaled by exp(-a).
-    """
-    s, c = np.sin(a), np.cos(a)
-    cosh, sinh = (1.0 + np.exp(-2.0 * a)) / 2.0, -np.expm1(-2.0 * a) / 2.0
-    x = np.minimum(a, 0.5) ** 4
-    series = a**3 * np.exp(-a) * (_SERIES[0] + x * (_SERIES[1] + x * (_SERIES[2] + x * _SERIES[3])))
-    p = s * cosh + c * sinh
-    q = np.where(a < 0.5, series, s * cosh - c * sinh)
-    p, q = np.where(p == 0.0, 1e-30, p), np.where(q == 0.0, 1e-30, q)
-    cc, ss = c * cosh, s * sinh
-    e = ss / p - cc / q
-    g = (p / q - q / p) / 2.0
-    h = cc / p + ss / q
-    # Between j pi and (j + 1) pi both p and q have one zero (q none for j = 0) and start with the sign of (-1)^j, -(-1)^j.
-    j = np.floor(a / math.pi)
-    parity = 1.0 - 2.0 * (j % 2.0)
-    poles = 2.0 * j + (p * parity < 0.0) - (q * parity < 0.0)
-    return e, g, h, (cc - ss) * (cc + ss) / (p * q), poles
-
-
-def _bracketed_roots(f: Callable[[Array], Array], a: Array, b: Array, fa: Array, fb: Array) -> Array:
-    """Zeros of f between a and b, to the last digits: inverse quadratic steps or bisection (Chandrupatla 1997)."""
-    t = np.full_like(a, 0.5)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        for _ in range(200):
-            x = a + t * (b - a)
-            fx = f(x)
-            same = np.sign(fx) == np.sign(fa)
-            c, fc = np.where(same, a, b), np.where(same, fa, fb)
-            b, fb = np.where(same, b, a), np.where(same, fb, fa)
-            a, fa = x, fx
-            best = np.where(np.abs(fa) < np.abs(fb), a, b)
-            smallest = 2.0 * np.finfo(float).eps * best / np.abs(b - a)
-            if np.all((smallest > 0.5) | (fa == 0.0) | (fb == 0.0)):
-                return best
-            xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
-            step = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
-            t = np.where((phi**2 < xi) & ((1.0 - phi) ** 2 < 1.0 - xi), step, 0.5)
-            smallest = np.minimum(smallest, 0.5)
-            t = np.clip(t, smallest, 1.0 - smallest)
-    raise ConvergenceError("joint modes: the wavenumbers did not settle; check that the stiffnesses are sensible")
-
-
 def _shapes(wavenumbers: Array, coefficients: Array, length: float, s: Array, derivative: int) -> Array:
     """Derivative of the shapes of one stage at distances s from its free end, shape (len(s), count)."""
     phase = s[:, None] * wavenumbers
@@ -305,18 +180,16 @@ def _shapes(wavenumbers: Array, coefficients: Array, length: float, s: Array, de
     return np.asarray(wavenumbers**derivative * (shapes + (-1.0) ** derivative * c * np.exp(-phase)))
 
 
-def _coefficients(joint: _Joint, wavenumbers: Array) -> Array:
+def _coefficients(beam: JointedBeam, found: Array) -> Array:
     """Mode shapes up to a factor, shape (2, 4, count): the null vectors of the four conditions at the joint.
 
-    The free end fixes cosine and sine in terms of the two exponentials, so each stage has two unknowns. Unlike the
-    loads at the joint, these do not vanish where the springs are soft or a frequency of a free beam is hit.
+    The free end fixes cosine and sine in terms of the two exponentials, so each stage has two unknowns. They do
+    not vanish, as the loads at the joint do, where a spring is absent or a free beam's frequency is hit.
     """
-    z = joint.lengths[:, None] * wavenumbers
+    z = beam.lengths[:, None] * found
     end, one = np.exp(-z), np.ones_like(z)
     # (stage, unknown, count, function) of cosine, sine and the two exponentials
-    free = np.stack(
-        [np.stack([one, -one, one, 0 * one], axis=-1), np.stack([end, end, 0 * one, one], axis=-1)], axis=1
-    )
+    free = np.stack([np.stack([one, -one, one, 0 * one], axis=-1), np.stack([end, end, 0 * one, one], axis=-1)], axis=1)
     cos, sin = np.cos(z), np.sin(z)
     # (derivative over lambda^derivative, stage, count, function) at the joint
     tip = np.stack(
@@ -329,7 +202,7 @@ def _coefficients(joint: _Joint, wavenumbers: Array) -> Array:
     )
     deflection, slope, moment, shear = np.einsum("dsnf,sunf->dnsu", tip, free)
     mirror = np.array([[1.0], [-1.0]])  # stage, unknown: the aft stage is seen from the tail
-    beams, springs = (share[..., None, None] for share in joint.shares(wavenumbers))
+    beams, springs = (share[..., None, None] for share in beam.shares(found))
     forward = np.array([[1.0], [0.0]])
     rows = [
         moment * mirror,
@@ -339,21 +212,21 @@ def _coefficients(joint: _Joint, wavenumbers: Array) -> Array:
     ]
     vectors = np.linalg.svd(np.stack(rows, axis=1).reshape(-1, 4, 4))[2]
     # Two wavenumbers that agree to the last digits share a plane of null vectors: take one of each.
-    double = np.diff(wavenumbers, prepend=0.0) < 1e-12 * wavenumbers
+    double = np.diff(found, prepend=0.0) < 1e-12 * found
     null = np.where(double[:, None], vectors[:, 2], vectors[:, 3]).reshape(-1, 2, 2)
     return np.asarray(np.einsum("nsu,sunf->sfn", null, free))
 
 
-def _normalised(joint: _Joint, wavenumbers: Array, coefficients: Array) -> Array:
+def _normalised(beam: JointedBeam, found: Array, coefficients: Array) -> Array:
     """Scale to unit generalised mass; the Gram matrix also parts modes that share a frequency."""
-    points, weights = _gauss(16 + 2 * wavenumbers.size)  # lambda < pi (count + 3.5): exact to rounding
-    gram = np.zeros((wavenumbers.size, wavenumbers.size))
-    for stage, length in enumerate(joint.lengths):
-        shapes = _shapes(wavenumbers, coefficients[stage], length, points * length, 0)
+    points, weights = _gauss(16 + 2 * found.size)  # lambda < pi (count + 3.5): exact to rounding
+    gram = np.zeros((found.size, found.size))
+    for stage, length in enumerate(beam.lengths):
+        shapes = _shapes(found, coefficients[stage], length, points * length, 0)
         gram += shapes.T @ (shapes * (length * weights)[:, None])
     scale = 1.0 / np.sqrt(np.diag(gram))
     factor = np.linalg.cholesky(gram * scale * scale[:, None])
-    coefficients = np.linalg.solve(factor, (coefficients * scale).reshape(8, -1).T).T.reshape(coefficients.shape)
+    coefficients = np.einsum("sfj,ij->sfi", coefficients * scale, np.linalg.inv(factor))
     nose, tail = 2.0 * coefficients[:, 0]  # at a free end the exponentials add up to the cosine
     return np.asarray(coefficients * np.sign(np.where(np.abs(nose) > 1e-9 * np.abs(tail), nose, tail)))
 

@@ -11,7 +11,7 @@ from beal.response.march import march
 from beal.vehicle.parts import Signal
 
 Array = NDArray[np.float64]
-DIGITS = 9  # to which times count as equal, as a share of the step
+SNAP = 1e-9  # share of a step within which a breakpoint counts as an output time
 
 
 def exact(
@@ -57,9 +57,7 @@ def exact(
     """
     size = len(stiffness)
     frequencies = [signals.angular_frequency(signal) for signal in loads]
-    scale = max(
-        float(np.linalg.norm(stiffness, 2)) ** 0.5, 1 / step, *frequencies
-    )  # rates are kept as rate/scale
+    scale = max(float(np.linalg.norm(stiffness, 2)) ** 0.5, 1 / step, *frequencies)  # rates are kept as rate/scale
     matrix = _generator(stiffness, shapes, frequencies, scale)
     nodes, lengths = _intervals([t for signal in loads for t in signals.breakpoints(signal)], step, count)
     distinct, which = np.unique(lengths, return_inverse=True)
@@ -92,9 +90,9 @@ def _generator(stiffness: Array, shapes: Array, frequencies: Sequence[float], sc
 def _intervals(breaks: Sequence[float], step: float, count: int) -> tuple[Array, Array]:
     """Ends and lengths, in steps, of the intervals between output times and breakpoints.
 
-    Equal lengths are made identical, so that few exponentials are needed.
+    Whole steps have length 1 exactly, so that one exponential serves them all.
     """
-    inside: Array = np.round([t / step for t in breaks if 0 < t < count * step], DIGITS)
-    nodes: Array = np.union1d(np.arange(count + 1.0), inside)
-    lengths: Array = np.round(np.diff(nodes), DIGITS)
-    return nodes, lengths
+    inside = np.array([t / step for t in breaks if 0 < t < count * step])
+    whole = np.round(inside)
+    nodes: Array = np.union1d(np.arange(count + 1.0), np.where(abs(inside - whole) < SNAP, whole, inside))
+    return nodes, np.diff(nodes)

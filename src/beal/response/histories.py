@@ -88,21 +88,16 @@ def growth_rate(response: Response, sensor: str) -> float:
     if len(turn) >= 4:
         instants, peaks = _turning_points(time, displacement, rate, turn)
         time, displacement = (instants[1:] + instants[:-1]) / 2, np.diff(peaks)
-    moving = displacement != 0
-    return float(np.polyfit(time[moving], np.log(abs(displacement[moving])), 1)[0])
+    size = abs(displacement)
+    time, size = time[size > 0], size[size > 0]
+    weight = size / size.max()  # what other modes add changes a small logarithm most
+    return float(np.polyfit(time, np.log(size), 1, w=weight)[0])
 
 
-def _turning_points(
-    time: Array, displacement: Array, rate: Array, turn: NDArray[np.intp]
-) -> tuple[Array, Array]:
+def _turning_points(time: Array, displacement: Array, rate: Array, turn: NDArray[np.intp]) -> tuple[Array, Array]:
     """Times and displacements of the turning points behind the indices ``turn``, by cubic interpolation."""
     h = time[turn + 1] - time[turn]
     y0, y1, v0, v1 = displacement[turn], displacement[turn + 1], h * rate[turn], h * rate[turn + 1]
     s = v0 / (v0 - v1)
-    cubic = (
-        (1 + 2 * s) * (1 - s) ** 2 * y0
-        + s * (1 - s) ** 2 * v0
-        + s**2 * (3 - 2 * s) * y1
-        - s**2 * (1 - s) * v1
-    )
+    cubic = (1 + 2 * s) * (1 - s) ** 2 * y0 + s * (1 - s) ** 2 * v0 + s**2 * (3 - 2 * s) * y1 - s**2 * (1 - s) * v1
     return time[turn] + s * h, cubic

@@ -58,9 +58,7 @@ class ModeShape:
         vehicle = operators.vehicle
         mode = free_modes(operators)[2][:, operators.rigid + self.number - 1]
         stations = np.union1d(np.linspace(0.0, vehicle.length, STATIONS), vehicle.boundaries)
-        deflection = np.concatenate(
-            [operators.shape(stations, side=side) @ mode for side in ("aft", "forward")]
-        )
+        deflection = np.concatenate([operators.shape(stations, side=side) @ mode for side in ("aft", "forward")])
         largest = deflection[np.argmax(abs(deflection))]
         reference = largest if self.at == "largest" else deflection[0]
         if abs(reference) < 1e-9 * abs(largest):
@@ -99,9 +97,7 @@ class Release:
     def coordinates(self, operators: Operators) -> tuple[Array, Array]:
         length = operators.vehicle.length
         if not 0 <= self.station <= length:
-            raise ModelError(
-                f"initial: station must lie on the vehicle, 0 to {length:.12g}, found {self.station}"
-            )
+            raise ModelError(f"initial: station must lie on the vehicle, 0 to {length:.12g}, found {self.station}")
         elastic = slice(operators.rigid, None)
         load = operators.shape(self.station)[0, elastic]
         q = np.zeros(len(operators.M))
@@ -164,14 +160,11 @@ class Samples:
             raise ModelError("initial: station, deflection and rate must be finite, found NaN or infinity")
         length = operators.vehicle.length
         if station.min() < 0 or station.max() > length:
-            raise ModelError(
-                f"initial: stations must lie on the vehicle, 0 to {length:.12g}, found {station.tolist()}"
-            )
-        modes = free_modes(operators)[2][:, : len(station)]
-        rows = operators.shape(station) @ modes
-        size = np.linalg.norm(rows, axis=0)
-        fit = np.linalg.lstsq(rows / size, np.column_stack([deflection, rate]), rcond=1e-10)[0]
-        q, q_rate = (modes @ (fit / size[:, None])).T
+            raise ModelError(f"initial: stations must lie on the vehicle, 0 to {length:.12g}, found {station.tolist()}")
+        _, nu, modes = free_modes(operators)
+        modes = (modes / np.sqrt(nu))[:, : len(station)]  # of equal size, all of them
+        fit = np.linalg.lstsq(operators.shape(station) @ modes, np.column_stack([deflection, rate]), rcond=1e-10)
+        q, q_rate = (modes @ fit[0]).T
         return q, q_rate
 
 

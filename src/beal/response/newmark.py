@@ -71,15 +71,11 @@ def newmark(
     factors = lu_factor(mass + beta * step**2 * stiffness)
     from_load = step**2 * np.asarray(lu_solve(factors, identity))
     acceleration = -from_load @ stiffness @ predict_q
-    transition = np.vstack(
-        [predict_q + beta * acceleration, predict_rate + gamma * acceleration, acceleration]
-    )
+    transition = np.vstack([predict_q + beta * acceleration, predict_rate + gamma * acceleration, acceleration])
     forcing = load[1:] @ np.vstack([beta * from_load, gamma * from_load, from_load]).T
     q, rate = start
     first = np.linalg.solve(mass, load[0] - stiffness @ q)
-    states = march(
-        [transition], np.zeros(len(forcing), dtype=np.intp), forcing, np.r_[q, step * rate, step**2 * first]
-    )
+    states = march([transition], np.zeros(len(forcing), dtype=np.intp), forcing, np.r_[q, step * rate, step**2 * first])
     q, rate, acceleration = np.split(states, 3, axis=1)
     return q, rate / step, acceleration / step**2
 
@@ -88,8 +84,7 @@ def check_parameters(beta: float, gamma: float) -> None:
     """Refuses parameters with which no step is stable (and NaN)."""
     if not gamma >= 0.5:
         raise ModelError(
-            f"gamma: must be at least 1/2, found {gamma}; "
-            "below, the method has negative damping and every motion grows"
+            f"gamma: must be at least 1/2, found {gamma}; below, the method has negative damping and every motion grows"
         )
     if not beta >= 0:
         raise ModelError(f"beta: must not be negative, found {beta}; 1/4 is stable with every step")

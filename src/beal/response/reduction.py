@@ -10,9 +10,7 @@ from scipy.linalg import eigh, eigvals, ordqz
 from beal.discretise.operators import Operators
 
 Array = NDArray[np.float64]
-APART = (
-    1.01  # ratio of |mu| above which two modes may be separated; closer ones are kept or left out together
-)
+APART = 1.01  # ratio of |mu| above which two modes may be separated; closer ones are kept or left out together
 
 
 @dataclass(frozen=True)

@@ -153,9 +153,7 @@ def _check_options(duration: float, step: float | None, method: str, modes: int)
     if not 0 < duration < math.inf:
         raise ModelError(f"duration: must be positive and finite, found {duration}")
     if step is not None and not 0 < step <= duration:
-        raise ModelError(
-            f"step: must be positive and no longer than the duration, {duration:g}, found {step}"
-        )
+        raise ModelError(f"step: must be positive and no longer than the duration, {duration:g}, found {step}")
     if method not in get_args(Method):
         raise ModelError(f"method: must be one of {', '.join(get_args(Method))}, found {method!r}")
     if modes < 1:
@@ -191,9 +189,7 @@ def _shortest_period(reduced: ReducedEquations, vehicle: Vehicle) -> float:
 def _count(duration: float, step: float) -> int:
     count = math.ceil(duration / step * (1 - 1e-12))  # a step that divides the duration stays as it is
     if count > MOST_STEPS:
-        raise ModelError(
-            f"step: at most {MOST_STEPS} steps are taken, found {count}; shorten the duration or the step"
-        )
+        raise ModelError(f"step: at most {MOST_STEPS} steps are taken, found {count}; shorten the duration or the step")
     return count
 
 

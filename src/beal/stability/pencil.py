@@ -11,7 +11,11 @@ from beal.discretise.operators import Operators
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-MODES, CORRECTED, TWICE_CORRECTED = 10, 4, 2  # modes kept; lowest ones whose change under thrust is added; twice
+MODES, CORRECTED, TWICE_CORRECTED = (
+    10,
+    4,
+    2,
+)  # modes kept; lowest ones whose change under thrust is added; twice
 UNCOUPLED = 1e-11  # a rigid-body motion that drives the elastic coordinates less than this drives them not at all
 
 

@@ -21,7 +21,6 @@ from beal.stability.pencil import Array, ComplexArray, Pencil
 
 Kind = Literal["flutter", "divergence"]
 
-WATCHED = 8  # elastic modes between which coalescence is looked for
 REAL = 1e-4  # relative imaginary part up to which rounding may split a pair of real roots that nearly meet
 ZERO = 1e-6  # |W| below this share of the pencil's shift is zero to rounding
 FLAT = 1e-9  # height, as a share of the ridge's at the start, above which -height still counts as touching zero
@@ -74,13 +73,15 @@ class Search:
         The thrust to search to.
     steps : int
         Coarse intervals of thrust to begin with.
+    watched : int
+        Number of elastic modes between which coalescence is looked for.
     """
 
-    def __init__(self, pencil: Pencil, limit: float, steps: int) -> None:
+    def __init__(self, pencil: Pencil, limit: float, steps: int, watched: int) -> None:
         self.pencil, self.limit, self.steps = pencil, limit, steps
-        self._drift = _rigid_body_root(pencil, limit)
+        self._drift = rigid_body_root(pencil, limit)
         self._lowest = int(self._drift == "tumbling")  # the root that must not turn negative
-        self._pairs = min(WATCHED + pencil.rigid, len(pencil.M)) - 1
+        self._pairs = min(watched + pencil.rigid, len(pencil.M)) - 1
         self._sign = (-1.0) ** np.arange(self._pairs + 1)
         self._scale = np.ones(self._pairs + 1)
         start = [np.abs(self.state(thrust).heights) for thrust in (0.0, limit / steps)]
@@ -119,9 +120,9 @@ class Search:
             probe = self.state(NARROW * self.limit)
             if not probe.stable:
                 kind: Kind = "divergence" if probe.real else "flutter"
-                pair = (1, 1) if probe.real else _meeting(probe.roots)
+                modes = (1, 1) if probe.real else meeting_pair(self.pencil, probe.thrust, 0.0)
                 zero = np.zeros(len(self.pencil.M))
-                return Instability(CriticalPoint(0.0, 0.0, True, 0.0, zero, zero), kind, pair)
+                return Instability(CriticalPoint(0.0, 0.0, True, 0.0, zero, zero), kind, modes)
         for thrust in np.linspace(0.0, self.limit, self.steps + 1)[1:]:
             right = self.state(float(thrust))
             if found := self._within(left, right):
@@ -154,7 +155,7 @@ class Search:
         """(kind, thrust, W) of critical points that would explain an unstable state, the likeliest first."""
         span = right.thrust - left.thrust
         if right.real:
-            below = np.flatnonzero(right.heights < -FLAT)
+            below = [int(ridge) for ridge in np.flatnonzero(right.heights < -FLAT)]
             shares = [(_first_zero(left, right, ridge), ridge) for ridge in below]
             for share, ridge in sorted(shares):
                 W = (1 - share) * left.ridges[ridge] + share * right.ridges[ridge]
@@ -174,7 +175,9 @@ class Search:
     def _confirmed(self, left: State, right: State, kind: Kind, thrust: float, W: float) -> Instability | None:
         """The instability next to a guess, if it lies in the interval and nothing comes before it."""
         neutral = kind == "divergence" and self._drift == "neutral"
-        point = divergence(self.pencil, thrust, neutral) if kind == "divergence" else coalescence(self.pencil, thrust, W)
+        point = (
+            divergence(self.pencil, thrust, neutral) if kind == "divergence" else coalescence(self.pencil, thrust, W)
+        )
         inside = left.thrust < point.thrust <= right.thrust
         if not (point.converged and inside):
             return None
@@ -183,15 +186,11 @@ class Search:
         before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
         if not before.stable or after.stable or self._within(left, before):
             return None
-        modes = (1, 1)
-        if kind == "flutter":
-            low = before.roots[: self._pairs + 1].real
-            pair = int(np.argmin(np.abs(low[1:] - point.W) + np.abs(low[:-1] - point.W)))
-            modes = (pair + 1 - self.pencil.rigid, pair + 2 - self.pencil.rigid)
+        modes = (1, 1) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
         return Instability(point, kind, modes)
 
 
-def _rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tumbling"]:
+def rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tumbling"]:
     """Where the rigid-body root goes under thrust: it stays zero, or turns negative and the vehicle tumbles."""
     if not pencil.rigid:
         return ""
@@ -201,8 +200,10 @@ def _rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tu
     return "tumbling" if min(lowest) < 0 else ""
 
 
-def _meeting(roots: ComplexArray) -> tuple[int, int]:
-    first = int(np.flatnonzero(roots.imag != 0)[0]) + 1
+def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:
+    """The neighbouring modes closest to W at a thrust, elastic ones counted from 1, a rigid-body root as 0."""
+    roots = pencil.roots(thrust)
+    first = int(np.argmin(np.abs(roots[1:] - W) + np.abs(roots[:-1] - W))) + 1 - pencil.rigid
     return first, first + 1
 
 

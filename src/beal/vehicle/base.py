@@ -1,15 +1,28 @@
 """What every part of a vehicle shares: frozen, validated, every problem named by its path."""
 
 import math
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
 
 from beal.errors import ModelError
 from beal.units import to_si
 
+CONTAINERS = {
+    "tuple_type": "a list (of tables: [[name]], not [name])",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+}
 
-class _Checked(type(BaseModel)):  # type: ignore[misc]
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)
+
+
+class _Checked(ModelMetaclass):
     """Turns pydantic's report into a ModelError, for direct construction only: nested parts keep their paths."""
 
     def __call__(cls, **fields: Any) -> Any:
@@ -23,6 +36,11 @@ class Part(BaseModel, metaclass=_Checked):
     """Base of the vehicle's parts: immutable, and refuses keys that it does not know."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy with fields replaced, checked like a new part (frozen parts are shared, ``deep`` or not)."""
+        fields = {name: getattr(self, name) for name in type(self).model_fields}
+        return type(self)(**fields | dict(update or {}))
 
 
 def problems(error: ValidationError, root: type[BaseModel]) -> list[tuple[str, str]]:
@@ -47,6 +65,12 @@ def _message(item: Any, root: type[BaseModel]) -> str:
         return f"unknown key; known here: {', '.join(_known_keys(root, item['loc'][:-1]))}"
     if kind == "missing":
         return "is required and missing"
+    if kind == "union_tag_not_found":
+        return f"kind is required and missing, found {_short(found)}"
+    if kind == "union_tag_invalid":
+        return f"kind must be one of {item['ctx']['expected_tags']}, found {_short(item['ctx']['tag'])}"
+    if (expected := CONTAINERS.get(kind)) is not None:
+        return f"must be {expected}, found {_short(found)}"
     message = str(item["msg"]).removeprefix("Value error, ")
     message = message.replace("Input should be", "must be").replace("Input", "input")
     return message if "found" in message else f"{message}, found {_short(found)}"

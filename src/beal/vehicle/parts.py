@@ -1,12 +1,14 @@
 """The parts of a vehicle: stages, joints, masses, supports, thrust, sensors and forces."""
 
 import math
+import sys
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, FiniteFloat, model_validator
 
 from beal.vehicle.base import Part, si
 
+LARGEST = sys.float_info.max
 POSITIVE, NOT_NEGATIVE = Field(gt=0), Field(ge=0)
 ShearAxis = Literal["mean", "forward", "aft", "inertial"]
 End = Literal["free", "clamped", "pinned", "sliding"]
@@ -164,4 +166,5 @@ class Force(Part):
 
 def known(value: Any) -> bool:
     """Whether a field of raw input is a usable number."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return number and -LARGEST <= value <= LARGEST

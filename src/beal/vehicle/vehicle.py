@@ -10,6 +10,7 @@ from typing import Any, Literal
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from beal.units import to_si
 from beal.vehicle.base import Part
 from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
 
@@ -84,14 +85,20 @@ class Vehicle(Part):
     @classmethod
     def _fits_together(cls, data: Any, handler: Any) -> "Vehicle":
         """Checks across parts run even where a part is wrong, so that all problems are reported at once."""
-        found = [_detail(*problem) for problem in _misfits(data)] if isinstance(data, dict) else []
+        errors: list[InitErrorDetails] = []
         try:
             vehicle: Vehicle = handler(data)
         except ValidationError as error:
             errors = [_again(item) for item in error.errors(include_url=False)]
-            raise ValidationError.from_exception_data(cls.__name__, errors + found) from None
-        if found:
-            raise ValidationError.from_exception_data(cls.__name__, found)
+            parts = data if isinstance(data, dict) else {}
+        else:
+            parts = vehicle.__dict__
+        errors += [_detail(*problem) for problem in _misfits(parts)]
+        if not errors and not vehicle._in_range():
+            message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
+            errors.append(_detail(("stage",), message, vehicle.length))
+        if errors:
+            raise ValidationError.from_exception_data(cls.__name__, errors)
         return vehicle
 
     @cached_property
@@ -117,6 +124,14 @@ class Vehicle(Part):
         return (moment + sum(p.mass * p.station for p in self.point_masses)) / self.mass
 
     @property
+    def moment_of_inertia(self) -> float:
+        """Pitch inertia of the rigid vehicle about its centre of mass, in kg m^2."""
+        centre, stages = self.centre_of_mass, zip(self.stages, self.boundaries, strict=False)
+        return sum(
+            s.length * s.mass_per_length * (s.length**2 / 12 + (x + s.length / 2 - centre) ** 2) for s, x in stages
+        ) + sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
+
+    @property
     def free_free(self) -> bool:
         """Whether neither end is held."""
         return self.support.nose == self.support.tail == "free"
@@ -131,6 +146,13 @@ class Vehicle(Part):
         """Reference quantities of the non-dimensional form."""
         return Scales(self.length, self.stages[0].mass_per_length, self.stages[0].bending_stiffness)
 
+    def _in_range(self) -> bool:
+        try:
+            values = (self.scales.thrust, self.scales.time, self.mass * self.length**2)
+        except (OverflowError, ZeroDivisionError):
+            return False
+        return all(0 < value < math.inf for value in values)
+
     def stage_at(self, station: float) -> int:
         """Index of the stage that holds a station; a joint's station belongs to the stage aft of it."""
         inner = self.boundaries[1:-1]
@@ -142,24 +164,24 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
     """(location, message, input) of what does not fit together in raw input, as far as it can be judged."""
     stages = _parts(data, "stage", "stages")
     joints = _parts(data, "joint", "joints")
-    if not stages and {"stage", "stages"} & data.keys():
+    if data.get("stage", data.get("stages")) in ([], ()):
         yield ("stage",), "a vehicle needs at least one stage, found none", None
     elif stages and len(joints) != len(stages) - 1:
-        yield (
-            ("joint",),
-            f"{len(stages)} stages need {len(stages) - 1} joints (an empty [[joint]] is rigid), found {len(joints)}",
-            len(joints),
+        message = (
+            f"must be one fewer than the stages, {len(stages) - 1} (an empty [[joint]] is rigid), found {len(joints)}"
         )
-    lengths = [_field(stage, "length") for stage in stages]
-    total = sum(lengths) if lengths and all(known(x) and x > 0 for x in lengths) else math.inf
+        yield ("joint",), message, len(joints)
+    lengths = [_metres(stage, "length") for stage in stages]
+    total = sum(lengths) if lengths and all(x > 0 for x in lengths) else math.inf
     for alias, name in (("point_mass", "point_masses"), ("sensor", "sensors"), ("force", "forces")):
         for index, part in enumerate(_parts(data, alias, name)):
-            station = _field(part, "station")
-            if known(station) and station > total * (1 + 1e-12):
-                yield (alias, index, "station"), f"must lie on the vehicle, 0 to {total:.12g}, found {station}", station
+            station = _metres(part, "station")
+            if station > total * (1 + 1e-12):
+                message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
+                yield (alias, index, "station"), message, station
     names = [_field(sensor, "name") for sensor in _parts(data, "sensor", "sensors")]
     for index, name in enumerate(names):
-        if name in names[:index]:
+        if isinstance(name, str) and name in names[:index]:
             yield ("sensor", index, "name"), f"must be unique, found {name!r} again", name
 
 
@@ -169,15 +191,24 @@ def _parts(data: dict[str, Any], alias: str, name: str) -> list[Any]:
 
 
 def _field(part: Any, name: str) -> Any:
-    value = part.get(name) if isinstance(part, dict) else getattr(part, name, None)
-    return value
+    return part.get(name) if isinstance(part, dict) else getattr(part, name, None)
+
+
+def _metres(part: Any, name: str) -> float:
+    """A length of raw input; nan, which fails every comparison, where it is not one."""
+    value = _field(part, name)
+    try:
+        value = to_si(value, "m") if isinstance(value, str) else value
+    except ValueError:
+        return math.nan
+    return float(value) if known(value) else math.nan
 
 
 def _detail(location: tuple[str | int, ...], message: str, value: Any) -> InitErrorDetails:
-    return {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}  # type: ignore[arg-type]
+    return {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}
 
 
 def _again(item: Any) -> InitErrorDetails:
-    if item["type"] in ("value_error", "misfit") or "ctx" in item and "error" in item["ctx"]:
+    if item["type"] in ("value_error", "misfit") or "error" in item.get("ctx", {}):
         return _detail(item["loc"], str(item["msg"]).removeprefix("Value error, "), item["input"])
     return {"type": item["type"], "loc": item["loc"], "input": item["input"], "ctx": item.get("ctx", {})}

@@ -1,0 +1,1 @@
+"""Operators -> spectrum, tracked curves, critical thrust and its verifier."""

@@ -1,0 +1,128 @@
+"""Frequencies over thrust, each mode followed through veering, crossing and coalescence."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from beal.discretise.build import RITZ, Formulation, discretise
+from beal.discretise.operators import Operators
+from beal.errors import ModelError
+from beal.stability.critical import default_limit, one_thread
+from beal.stability.pencil import Array, ComplexArray, pencil
+from beal.stability.spectrum import exponents, lowest
+from beal.vehicle.vehicle import Vehicle
+
+SPARE = 3  # roots followed beyond those asked for, so that a mode that rises out of them is not lost
+LIKENESS = 0.6  # below this likeness of the shapes a step is halved
+HALVINGS = 6
+ORDER = 14
+
+
+@dataclass(frozen=True)
+class ThrustCurve:
+    """Tracked modes over thrust.
+
+    Parameters
+    ----------
+    thrust : ndarray, shape (points,)
+        In N.
+    angular_frequency, growth_rate : ndarray, shape (points, modes)
+        In rad/s and 1/s. Of a coalesced pair one branch grows and the other decays.
+    formulation : str
+    """
+
+    thrust: Array
+    angular_frequency: Array
+    growth_rate: Array
+    formulation: str
+
+
+@dataclass(frozen=True)
+class _Roots:
+    thrust: float
+    W: ComplexArray
+    vectors: ComplexArray
+
+
+def thrust_curve(
+    vehicle: Vehicle | Operators,
+    to: float | None = None,
+    points: int = 201,
+    modes: int = 4,
+    formulation: Formulation = "objective",
+) -> ThrustCurve:
+    """Frequency and growth rate of the lowest modes from zero thrust up.
+
+    Modes are matched from one thrust to the next by an optimal assignment on the likeness of their shapes and the
+    nearness of their roots, with steps halved where the match is not clear; so a mode keeps its column where
+    frequencies veer or cross, and both partners go on as a pair after they coalesce.
+
+    Parameters
+    ----------
+    vehicle : Vehicle or Operators
+    to : float, optional
+        Last thrust, in N; by default that to which `critical_thrust` searches.
+    points : int
+        Number of thrusts, evenly spaced from 0.
+    modes : int
+        Number of elastic modes, the lowest at zero thrust.
+    formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
+
+    Returns
+    -------
+    ThrustCurve
+
+    Raises
+    ------
+    ModelError
+        If the range or a count is not usable.
+
+    Examples
+    --------
+    >>> from beal.vehicle import catalog
+    >>> curve = thrust_curve(catalog.beck(), to=20.0, points=5, modes=2)
+    >>> curve.angular_frequency[3].round(5).tolist()
+    [6.62741, 16.25983]
+    """
+    if points < 2:
+        raise ModelError(f"points: must be at least 2, found {points}")
+    if to is not None and not 0 < to < np.inf:
+        raise ModelError(f"to: must be a positive thrust, found {to}")
+    operators = vehicle
+    if isinstance(operators, Vehicle):
+        operators = discretise(operators, formulation, order=None if formulation in RITZ else ORDER)
+    full = pencil(operators)
+    elastic = len(full.M) - full.rigid
+    if not 1 <= modes <= elastic:
+        raise ModelError(f"modes: must lie between 1 and {elastic} for this discretisation, found {modes}")
+    followed = min(modes + full.rigid + SPARE, len(full.M))
+    thrusts = np.linspace(0.0, to or default_limit(operators.vehicle), points)
+
+    def roots(thrust: float) -> _Roots:
+        return _Roots(thrust, *lowest(full, thrust, followed))
+
+    with one_thread():
+        state = roots(0.0)
+        columns = np.argsort(np.abs(state.W))[full.rigid : full.rigid + modes]
+        history = [state.W[columns]]
+        for thrust in thrusts[1:]:
+            state = _follow(state, float(thrust), roots, full.M, HALVINGS)
+            history.append(state.W[columns])
+    s = exponents(np.array(history))
+    return ThrustCurve(thrusts, np.abs(s.imag), np.asarray(s.real), formulation)
+
+
+def _follow(state: _Roots, thrust: float, roots: Callable[[float], _Roots], M: Array, halvings: int) -> _Roots:
+    """The roots at a thrust in the order in which ``state`` has them."""
+    new = roots(thrust)
+    likeness = np.abs(state.vectors.conj().T @ M @ new.vectors)
+    scale = np.abs(state.W[:, None]) + np.abs(new.W) + np.ptp(np.abs(state.W)) / len(state.W)
+    distance = np.abs(state.W[:, None] - new.W) / scale
+    before, after = linear_sum_assignment(distance + 1 - likeness)
+    order = after[np.argsort(before)]
+    if halvings and likeness[before, after][:-SPARE].min(initial=1.0) < LIKENESS:
+        middle = _follow(state, (state.thrust + thrust) / 2, roots, M, halvings - 1)
+        return _follow(middle, thrust, roots, M, 0 if halvings == 1 else halvings - 1)
+    return _Roots(thrust, new.W[order], new.vectors[:, order])

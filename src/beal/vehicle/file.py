@@ -1,0 +1,158 @@
+"""The model file: TOML to a vehicle and back."""
+
+import json
+import os
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from beal.errors import ModelError
+from beal.vehicle.base import Part, problems
+from beal.vehicle.vehicle import Vehicle
+
+LARGEST_FILE = 5_000_000  # bytes: a hundred thousand stages
+
+
+def load(path: str | os.PathLike[str]) -> Vehicle:
+    """Read a vehicle from a model file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A TOML file. In SI files (the default) a quantity is a number or a string with a unit, such as ``"12 ft"``.
+
+    Returns
+    -------
+    Vehicle
+
+    Raises
+    ------
+    ModelError
+        With every problem in the file, each with its path, or the reason why the file cannot be read.
+    """
+    source = str(path)
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise ModelError(f"cannot be read: {error.strerror or error}", source) from None
+    except ValueError as error:
+        raise ModelError(f"is not a file name: {error}", repr(source)) from None
+    if len(content) > LARGEST_FILE:
+        raise ModelError(f"is larger than {LARGEST_FILE // 10**6} MB: not a model file", source)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ModelError(f"is not text in UTF-8 (byte {error.start} is wrong): not a model file", source) from None
+    return loads(text, source)
+
+
+def loads(text: str, source: str = "model") -> Vehicle:
+    """Read a vehicle from the text of a model file.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    source : str
+        What error messages call it.
+
+    Returns
+    -------
+    Vehicle
+
+    Raises
+    ------
+    ModelError
+        With every problem in the text, each with its path.
+
+    Examples
+    --------
+    >>> loads("[[stage]]\\nlength = '1 ft'\\nmass_per_length = 2.0\\nbending_stiffness = 3.0").length
+    0.3048
+    """
+    data = _parsed(text, source)
+    if not data:
+        raise ModelError("is empty, expected at least one [[stage]]", source)
+    fields = {name: field.alias or name for name, field in Vehicle.model_fields.items()}
+    # Fields that Python code calls by another name than the file are unknown keys there.
+    refused = [name for name in data if fields.get(name, name) != name]
+    known = ", ".join(fields.values())
+    found = [(name, f"unknown key; known here: {known}") for name in refused]
+    accepted = {key: value for key, value in data.items() if key not in refused}
+    try:
+        vehicle = Vehicle.model_validate(accepted, context={"units": data.get("units")})
+    except ValidationError as error:
+        raise ModelError([*found, *problems(error, Vehicle)], source) from None
+    if found:
+        raise ModelError(found, source)
+    return vehicle
+
+
+def _parsed(text: str, source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except ValueError as error:  # TOMLDecodeError, or a whole number of thousands of digits
+        raise ModelError(f"is not valid TOML: {error}", source) from None
+    except RecursionError:
+        raise ModelError("is not a model: lists or tables are nested too deeply", source) from None
+
+
+def dumps(vehicle: Vehicle) -> str:
+    """TOML text that reads back to an equal vehicle.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    str
+        Quantities as plain numbers; what has its default value is left out.
+
+    Examples
+    --------
+    >>> print(dumps(loads("[[stage]]\\nlength = 2\\nmass_per_length = 1.0\\nbending_stiffness = '3 kN*m^2'")))
+    [[stage]]
+    length = 2.0
+    mass_per_length = 1.0
+    bending_stiffness = 3000.0
+    <BLANKLINE>
+    """
+    given = list(_given(vehicle))
+    blocks = ["".join(f"{key} = {_literal(value)}\n" for key, value in given if not _is_table(value))]
+    for key, value in given:
+        if isinstance(value, Part):
+            blocks.append(f"[{key}]\n{_assignments(value)}")
+        elif _is_table(value):
+            blocks += [f"[[{key}]]\n{_assignments(part)}" for part in value]
+    return "\n".join(block for block in blocks if block)
+
+
+def _given(part: Part) -> Iterator[tuple[str, Any]]:
+    """(key, value) of what differs from its default."""
+    for name, field in type(part).model_fields.items():
+        value = getattr(part, name)
+        if field.is_required() or value != field.default:
+            yield field.alias or name, value
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, Part) or (isinstance(value, tuple) and any(isinstance(item, Part) for item in value))
+
+
+def _assignments(part: Part) -> str:
+    return "".join(f"{key} = {_literal(value)}\n" for key, value in _given(part))
+
+
+def _literal(value: Any) -> str:
+    if isinstance(value, Part):
+        return "{" + ", ".join(f"{key} = {_literal(item)}" for key, item in _given(value)) + "}"
+    if isinstance(value, tuple):
+        return "[" + ", ".join(map(_literal, value)) + "]"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # the one escape that JSON lacks
+    return repr(float(value))
