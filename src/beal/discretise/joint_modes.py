@@ -183,8 +183,8 @@ def _shapes(wavenumbers: Array, coefficients: Array, length: float, s: Array, de
 def _coefficients(beam: JointedBeam, found: Array) -> Array:
     """Mode shapes up to a factor, shape (2, 4, count): the null vectors of the four conditions at the joint.
 
-    The free end fixes cosine and sine in terms of the two exponentials, so each stage has two unknowns. They do
-    not vanish, as the loads at the joint do, where a spring is absent or a free beam's frequency is hit.
+    The free end fixes cosine and sine in terms of the two exponentials, so each stage has two unknowns. They
+    do not vanish, as the loads at the joint do, where a spring is absent or a free beam's frequency is hit.
     """
     z = beam.lengths[:, None] * found
     end, one = np.exp(-z), np.ones_like(z)

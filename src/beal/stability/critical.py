@@ -290,8 +290,8 @@ def _refined(task: _Task, found: Instability, tolerance: float) -> tuple[Critica
         if error <= tolerance * point.thrust:
             return point, error
     raise ConvergenceError(
-        f"critical thrust {point.thrust:.9g}: relative error {error / point.thrust:.1e} with the finest discretisation, "
-        f"{tolerance:.1e} was asked for; ask for less"
+        f"critical thrust {point.thrust:.9g}: relative error {error / point.thrust:.1e} with the finest "
+        f"discretisation, {tolerance:.1e} was asked for; ask for less"
     )
 
 

@@ -1,1 +1,41 @@
 """What the user describes: the parts of a vehicle, the vehicle, its file format and a catalog."""
+
+from beal.vehicle import catalog
+from beal.vehicle.file import dumps, load, loads
+from beal.vehicle.parts import (
+    Force,
+    Joint,
+    PointMass,
+    Pulse,
+    Sensor,
+    Sine,
+    Stage,
+    Step,
+    Support,
+    Table,
+    Thrust,
+)
+from beal.vehicle.paths import value_at, with_values
+from beal.vehicle.vehicle import Scales, Vehicle
+
+__all__ = [
+    "Force",
+    "Joint",
+    "PointMass",
+    "Pulse",
+    "Scales",
+    "Sensor",
+    "Sine",
+    "Stage",
+    "Step",
+    "Support",
+    "Table",
+    "Thrust",
+    "Vehicle",
+    "catalog",
+    "dumps",
+    "load",
+    "loads",
+    "value_at",
+    "with_values",
+]

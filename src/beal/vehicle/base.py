@@ -2,24 +2,23 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
 
 from beal.errors import ModelError
 from beal.units import to_si
 
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)
+
 CONTAINERS = {
     "tuple_type": "a list (of tables: [[name]], not [name])",
     "model_type": "a table",
     "model_attributes_type": "a table",
 }
-
-
-if TYPE_CHECKING:
-    from pydantic._internal._model_construction import ModelMetaclass
-else:
-    ModelMetaclass = type(BaseModel)
 
 
 class _Checked(ModelMetaclass):
@@ -29,7 +28,7 @@ class _Checked(ModelMetaclass):
         try:
             return super().__call__(**fields)
         except ValidationError as error:
-            raise ModelError(problems(error, cls)) from None
+            raise ModelError(problems(error, cls)) from None  # type: ignore[arg-type]
 
 
 class Part(BaseModel, metaclass=_Checked):

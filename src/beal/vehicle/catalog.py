@@ -8,7 +8,7 @@ from beal.vehicle.vehicle import Vehicle
 def beck() -> Vehicle:
     """Beck's column: clamped at the nose, a follower force at the free tail.
 
-    Flutter of modes 1 and 2 at P = 20.05, angular frequency 11.02 (Beck, 1952); more exactly 20.0509536 and 11.0155576.
+    Flutter of modes 1 and 2 at P = 20.05 (Beck, 1952); more exactly 20.0509536, at an angular frequency of 11.0155576.
 
     Returns
     -------
@@ -125,7 +125,7 @@ def tsto(split: float, rotational_stiffness: float, shear_stiffness: float, shea
     References
     ----------
     Irani, S., Kavianipour, O., 2009. Effects of a flexible joint on instability of a free-free jointed bipartite beam
-    under the follower and transversal forces. Journal of Zhejiang University SCIENCE A, 10(9), 1252-1262.
+    under the follower and transversal forces. Journal of Zhejiang University SCIENCE A. doi:10.1631/jzus.A0820621
 
     Examples
     --------

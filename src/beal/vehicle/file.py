@@ -71,8 +71,8 @@ def loads(text: str, source: str = "model") -> Vehicle:
 
     Examples
     --------
-    >>> loads("[[stage]]\\nlength = '1 ft'\\nmass_per_length = 2.0\\nbending_stiffness = 3.0").length
-    0.3048
+    >>> loads("[[stage]]\\nlength = '2 km'\\nmass_per_length = 2.0\\nbending_stiffness = 3.0").length
+    2000.0
     """
     data = _parsed(text, source)
     if not data:

@@ -1,0 +1,96 @@
+"""The resolved model: what a vehicle adds up to."""
+
+import math
+from typing import Any
+
+from beal.vehicle.parts import Joint
+from beal.vehicle.vehicle import Vehicle
+
+
+def summary(vehicle: Vehicle) -> dict[str, Any]:
+    """Lengths, masses, joints and non-dimensional groups of a vehicle, ready for JSON.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    dict
+        Quantities in SI units, or non-dimensional where the vehicle is. Under ``nondimensional`` the groups of Irani &
+        Kavianipour (2009), Eq. (6), and the reference quantities that they are formed with: the whole length and the
+        first stage's properties. An infinite stiffness is the text ``"rigid"``.
+
+    Examples
+    --------
+    >>> from beal.vehicle.catalog import tsto
+    >>> resolved = summary(tsto(0.6, 5000.0, float("inf")))
+    >>> resolved["centre_of_mass"], resolved["joints"][0]["station"]
+    (0.5, 0.6)
+    >>> resolved["nondimensional"]["joints"]
+    [{'rotational_stiffness': 5000.0, 'shear_stiffness': 'rigid'}]
+    """
+    return {
+        "title": vehicle.title,
+        "units": vehicle.units,
+        "length": vehicle.length,
+        "mass": vehicle.mass,
+        "centre_of_mass": vehicle.centre_of_mass,
+        "moment_of_inertia": vehicle.moment_of_inertia,
+        "support": {"nose": vehicle.support.nose, "tail": vehicle.support.tail},
+        "axial_force": vehicle.axial_force,
+        "tangency": vehicle.thrust.tangency,
+        "nominal_thrust": vehicle.thrust.nominal,
+        "stages": _stages(vehicle),
+        "joints": _joints(vehicle),
+        "point_masses": [part.model_dump() for part in vehicle.point_masses],
+        "sensors": [part.model_dump() for part in vehicle.sensors],
+        "nondimensional": _groups(vehicle),
+    }
+
+
+def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
+    ends = zip(vehicle.stages, vehicle.boundaries, vehicle.boundaries[1:], strict=False)
+    return [
+        {
+            "name": stage.name,
+            "from": start,
+            "to": end,
+            "mass": stage.length * stage.mass_per_length,
+            "mass_per_length": stage.mass_per_length,
+            "bending_stiffness": stage.bending_stiffness,
+        }
+        for stage, start, end in ends
+    ]
+
+
+def _joints(vehicle: Vehicle) -> list[dict[str, Any]]:
+    return [
+        {"name": joint.name, "station": station, "shear_axis": joint.shear_axis, **_springs(joint, 1.0, 1.0)}
+        for joint, station in zip(vehicle.joints, vehicle.boundaries[1:], strict=False)
+    ]
+
+
+def _groups(vehicle: Vehicle) -> dict[str, Any]:
+    """k_r L/EI, k_s L^3/EI, P L^2/EI and the scales themselves."""
+    scales = vehicle.scales
+    rotational, shear = scales.thrust * scales.length, scales.thrust / scales.length
+    nominal = vehicle.thrust.nominal
+    return {
+        "reference_length": scales.length,
+        "reference_mass_per_length": scales.mass_per_length,
+        "reference_bending_stiffness": scales.bending_stiffness,
+        "thrust_scale": scales.thrust,
+        "time_scale": scales.time,
+        "nominal_thrust": None if nominal is None else nominal / scales.thrust,
+        "joints": [_springs(joint, rotational, shear) for joint in vehicle.joints],
+    }
+
+
+def _springs(joint: Joint, rotational: float, shear: float) -> dict[str, float | str]:
+    """Stiffnesses over their scales; JSON has no infinity."""
+    stiffness = {
+        "rotational_stiffness": joint.rotational_stiffness / rotational,
+        "shear_stiffness": joint.shear_stiffness / shear,
+    }
+    return {name: "rigid" if math.isinf(value) else value for name, value in stiffness.items()}
