@@ -11,11 +11,9 @@ from beal.discretise.operators import Operators
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-MODES, CORRECTED, TWICE_CORRECTED = (
-    10,
-    4,
-    2,
-)  # modes kept; lowest ones whose change under thrust is added; twice
+MODES = 10  # kept
+CORRECTED, TWICE_CORRECTED = 4, 2  # lowest ones whose change under thrust is added; twice
+LIGHT = 1e-13  # share of the largest inertia below which a coordinate only follows; stiff joints' are all rounding
 UNCOUPLED = 1e-11  # a rigid-body motion that drives the elastic coordinates less than this drives them not at all
 
 
@@ -43,18 +41,23 @@ class Pencil:
         return self.K0 + thrust * self.K1
 
     def roots(self, thrust: float) -> ComplexArray:
-        """All W in order of their real parts, shape (n,)."""
+        """All W in order of their real parts, shape (n,).
+
+        From the inverse, 1/(W + shift), because a stiff joint's root would drown the low ones in its rounding.
+        """
         root = np.sqrt(np.diag(self.M))  # reduced pencils have a diagonal M
-        roots = np.linalg.eigvals(self.stiffness(thrust) / np.outer(root, root)).astype(complex)
+        shifted = self.stiffness(thrust) + self.shift * self.M
+        inverse = np.linalg.eigvals(root[:, None] * np.linalg.solve(shifted, np.diag(root))).astype(complex)
+        roots = 1 / inverse - self.shift
         return np.asarray(roots[np.lexsort((roots.imag, roots.real))])
 
     def projected(self, vectors: Array) -> "Pencil":
         """The pencil in the span of ``vectors``, in coordinates that make M diagonal and K0 + shift M the identity."""
         K0, K1, M = (vectors.T @ matrix @ vectors for matrix in (self.K0, self.K1, self.M))
         inertia, rotation = scipy.linalg.eigh(M, K0 + self.shift * M)
-        rotation = rotation[:, ::-1]
-        K0 = np.eye(len(M)) - self.shift * np.diag(inertia[::-1])
-        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia[::-1]), self.rigid, self.shift)
+        inertia, rotation = np.maximum(inertia[::-1], LIGHT * inertia[-1]), rotation[:, ::-1]
+        K0 = np.eye(len(M)) - self.shift * np.diag(inertia)
+        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift)
 
 
 def pencil(operators: Operators) -> Pencil:

@@ -194,10 +194,22 @@ def rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tum
     """Where the rigid-body root goes under thrust: it stays zero, or turns negative and the vehicle tumbles."""
     if not pencil.rigid:
         return ""
-    lowest = [pencil.roots(share * limit)[0].real for share in (0.0013, 0.0029)]
-    if max(np.abs(lowest)) < ZERO * pencil.shift:
+    nearest = [np.abs(pencil.roots(share * limit)).min() for share in (0.0013, 0.0029)]
+    if max(nearest) < ZERO * pencil.shift:
         return "neutral"
-    return "tumbling" if min(lowest) < 0 else ""
+    return "tumbling" if _initial_drift(pencil, limit) < 0 else ""
+
+
+def _initial_drift(pencil: Pencil, limit: float) -> float:
+    """Generalised stiffness that the rigid-body motion gains from the first thrust, up to a positive factor.
+
+    K(P) with the elastic coordinates eliminated is P K1_rr - P^2 K1_re K0_ee^-1 K1_er + ...
+    """
+    r = pencil.rigid
+    first = limit * pencil.K1[:r, :r]
+    second = -(limit**2) * pencil.K1[:r, r:] @ np.linalg.pinv(pencil.K0[r:, r:], hermitian=True) @ pencil.K1[r:, :r]
+    significant = np.abs(first).max() > ZERO * np.abs(limit * pencil.K1).max()
+    return float(np.linalg.eigvals(first if significant else second).real.min())
 
 
 def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:
@@ -245,7 +257,7 @@ def _first_zero(left: State, right: State, ridge: int) -> float:
 def _dip(left: State, right: State) -> float | None:
     """Thrust of the deepest dip of a ridge inside an interval that deserves another look, if any."""
     c0, c1, c2, c3 = _cubic(left, right, slice(None))
-    t: NDArray[np.float64] = np.linspace(0.1, 0.9, 17)[:, None]
+    t: NDArray[np.float64] = np.linspace(0.02, 0.98, 49)[:, None]
     depth = (c0 + t * (c1 + t * (c2 + t * c3))) / np.maximum(np.minimum(left.heights, right.heights), FLAT)
     row, ridge = np.unravel_index(np.argmin(depth), depth.shape)
     if depth[row, ridge] > DIP or min(left.heights[ridge], right.heights[ridge]) < FLAT:

@@ -44,7 +44,9 @@ class Part(BaseModel, metaclass=_Checked):
 
 def problems(error: ValidationError, root: type[BaseModel]) -> list[tuple[str, str]]:
     """The pydantic errors as (path, message) with paths as the model file writes them."""
-    return [(path(item["loc"]), _message(item, root)) for item in error.errors(include_url=False)]
+    keys = {name: field.alias or name for name, field in root.model_fields.items()}
+    items = error.errors(include_url=False)
+    return [(path(tuple(keys.get(str(key), key) for key in item["loc"])), _message(item, root)) for item in items]
 
 
 def path(loc: tuple[int | str, ...]) -> str:

@@ -1,0 +1,56 @@
+"""The commands, gathered."""
+
+from typing import Annotated
+
+import typer
+
+from beal import __version__
+from beal.cli.critical import critical
+from beal.cli.curve import curve
+from beal.cli.maps import map_study, reproduce
+from beal.cli.models import check, example
+from beal.cli.modes import modes
+from beal.cli.motion import response
+
+EXAMPLES = {
+    "check": "beal check tsto.toml",
+    "modes": "beal modes tsto.toml --count 4 --thrust 90",
+    "critical": "beal critical tsto.toml --all --json",
+    "curve": "beal curve tsto.toml --to 150 -o curve.csv",
+    "map": "beal map study.toml -o map.zarr",
+    "response": "beal response tsto.toml --duration 10 --initial mode:1:0.01",
+    "reproduce": "beal reproduce -o paper",
+    "example": "beal example tsto -o tsto.toml",
+}
+
+app = typer.Typer(
+    help="Critical thrust of flexible launch vehicles: where they fail, how, and what joint keeps them safe.",
+    epilog="Start with: beal example tsto -o tsto.toml, then beal critical tsto.toml",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+for name, command in {
+    "check": check,
+    "modes": modes,
+    "critical": critical,
+    "curve": curve,
+    "map": map_study,
+    "response": response,
+    "reproduce": reproduce,
+    "example": example,
+}.items():
+    app.command(name, epilog=f"Example: {EXAMPLES[name]}")(command)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        print(f"beal {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _beal(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="The version.")] = False,
+) -> None:
+    pass

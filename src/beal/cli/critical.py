@@ -1,0 +1,157 @@
+"""``beal critical``: the verdict on a vehicle."""
+
+import math
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from beal.cli.options import AsJson, Formulation, Model
+from beal.cli.output import emit, quantity, show_table
+
+if TYPE_CHECKING:
+    from beal.stability.complete import Event
+    from beal.stability.critical import CriticalThrust
+    from beal.vehicle.vehicle import Vehicle
+
+
+def critical(
+    model: Model,
+    max_thrust: Annotated[float | None, typer.Option("--max-thrust", metavar="P", help="Search up to there.")] = None,
+    every: Annotated[bool, typer.Option("--all", help="All changes of stability, in order of thrust.")] = False,
+    formulation: Formulation = "objective",
+    size: Annotated[int | None, typer.Option("--modes", metavar="N", help="Size of the Ritz formulations.")] = None,
+    complete: Annotated[bool, typer.Option("--complete", help="By one eigenvalue problem, without a search.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """The smallest thrust at which the vehicle flutters or diverges."""
+    from beal.stability.critical import critical_events, critical_thrust
+    from beal.vehicle.file import load
+
+    vehicle = load(model)
+    found = critical_thrust(
+        vehicle,
+        max_thrust,
+        formulation,  # type: ignore[arg-type]  # checked there
+        modes=size,
+        method="complete" if complete else "fast",
+    )
+    events = critical_events(vehicle, max_thrust, formulation, size) if every else []  # type: ignore[arg-type]
+    if as_json:
+        listed = {"events": [_event(event) for event in events]} if every else {}
+        emit({**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **listed})
+        return
+    print(_verdict(vehicle, found))
+    print(_searched(vehicle, found))
+    if convention := _convention(vehicle, formulation):
+        print(convention)
+    if every:
+        _show_events(vehicle, events)
+
+
+def _relative(vehicle: "Vehicle", found: "CriticalThrust") -> dict[str, float | None]:
+    """P L^2/EI, and the margin over the nominal thrust."""
+    thrust, nominal = found.critical_thrust, vehicle.thrust.nominal
+    return {
+        "nondimensional_thrust": None if thrust is None else thrust / vehicle.scales.thrust,
+        "margin": None if thrust is None or nominal is None else thrust / nominal - 1,
+    }
+
+
+def _event(event: "Event") -> dict[str, Any]:
+    return {
+        "thrust": event.thrust,
+        "kind": event.kind,
+        "modes": event.modes,
+        "angular_frequency": math.sqrt(max(event.W, 0.0)),
+        "change": event.change,
+        "unstable": event.unstable,
+    }
+
+
+def _verdict(vehicle: "Vehicle", found: "CriticalThrust") -> str:
+    if found.elastic is not None:
+        elastic = _instability(vehicle, found.elastic)
+        return f"tumbles as a rigid body under any thrust; its elastic modes alone: {elastic}"
+    return f"{vehicle.title}: {_instability(vehicle, found)}" if vehicle.title else _instability(vehicle, found)
+
+
+def _instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:
+    """One sentence: how, at which thrust, in which modes, at which frequency, with which margin."""
+    thrust, unit = found.critical_thrust, _thrust_unit(vehicle)
+    if thrust is None or found.modes is None or found.angular_frequency is None:
+        return f"stable up to {quantity(found.searched_to, unit)}, as far as was searched"
+    if thrust == 0:
+        return "is unstable at any thrust: it folds or slides without resistance"
+    relative = _relative(vehicle, found)
+    scale = vehicle.scales.thrust
+    group = quantity(thrust / scale, "", None if found.error_estimate is None else found.error_estimate / scale)
+    value = f"{quantity(thrust, unit, found.error_estimate)} (P L^2/EI = {group})"
+    if found.kind == "flutter":
+        text = f"flutters at {value}: {_meeting(found.modes)} meet at {_frequency(vehicle, found.angular_frequency)}"
+    else:
+        text = f"diverges at {value}: the frequency of {_mode(found.modes[0])} falls to zero"
+    margin = relative["margin"]
+    if margin is None:
+        return text
+    return (
+        f"{text}; margin {100 * margin:+.2f} % over the nominal thrust {quantity(vehicle.thrust.nominal or 0.0, unit)}"
+    )
+
+
+def _thrust_unit(vehicle: "Vehicle") -> str:
+    return "N" if vehicle.units == "SI" else ""
+
+
+def _meeting(pair: tuple[int, int]) -> str:
+    return f"modes {pair[0]} and {pair[1]}" if all(pair) else f"the rigid-body motion and mode {max(pair)}"
+
+
+def _mode(number: int) -> str:
+    return f"mode {number}" if number else "the rigid-body motion"
+
+
+def _frequency(vehicle: "Vehicle", omega: float) -> str:
+    if vehicle.units == "SI":
+        return f"{omega / (2 * math.pi):.6g} Hz ({omega:.6g} rad/s)"
+    return f"an angular frequency of {omega:.6g}"
+
+
+def _searched(vehicle: "Vehicle", found: "CriticalThrust") -> str:
+    reached = found.elastic or found
+    text = f"searched: the {found.watched_modes} lowest elastic modes"
+    text += f" up to {quantity(found.searched_to, _thrust_unit(vehicle))}, formulation {found.formulation}"
+    if reached.critical_thrust and reached.error_estimate is not None:
+        text += f", relative error about {reached.error_estimate / reached.critical_thrust:.0e}"
+    return text
+
+
+def _convention(vehicle: "Vehicle", formulation: str) -> str:
+    """Which couple a joint that slides under the axial force carries."""
+    if not any(math.isfinite(joint.shear_stiffness) for joint in vehicle.joints):
+        return ""
+    if formulation != "objective":
+        return "joints: shear axis inertial, by the formulation (such a joint does not balance moments)"
+    axes = {joint.shear_axis for joint in vehicle.joints if math.isfinite(joint.shear_stiffness)}
+    if len(axes) == 1:
+        warning = " (such a joint does not balance moments)" if "inertial" in axes else ""
+        return f"joints: shear axis {axes.pop()}{warning}"
+    return "joints: shear axes " + ", ".join(joint.shear_axis for joint in vehicle.joints) + ", from nose to tail"
+
+
+def _show_events(vehicle: "Vehicle", events: "list[Event]") -> None:
+    unit = _thrust_unit(vehicle)
+    rows = [
+        [
+            f"{event.thrust:.9g}",
+            event.kind,
+            f"{event.modes[0]}-{event.modes[1]}" if event.kind == "flutter" else event.modes[0],
+            math.sqrt(max(event.W, 0.0)),
+            event.change,
+            event.unstable,
+        ]
+        for event in events
+    ]
+    frequency = "angular frequency" + (" [rad/s]" if unit else "")
+    columns = [f"thrust{' [N]' if unit else ''}", "kind", "modes", frequency, "change", "unstable roots above"]
+    show_table(columns, rows, "all changes of stability")

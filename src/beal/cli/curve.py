@@ -1,0 +1,48 @@
+"""``beal curve``: frequencies over thrust."""
+
+from contextlib import nullcontext
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from beal.cli.options import AsJson, Formulation, Model, Table
+from beal.cli.output import emit, new_file, note, show_table, write_columns
+
+if TYPE_CHECKING:
+    from beal.stability.curve import ThrustCurve
+
+
+def curve(
+    model: Model,
+    to: Annotated[float, typer.Option("--to", metavar="P", help="Last thrust.", show_default=False)],
+    points: Annotated[int, typer.Option("--points", metavar="N", help="Number of thrusts, from 0.")] = 41,
+    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 4,
+    formulation: Formulation = "objective",
+    output: Table = None,
+    as_json: AsJson = False,
+) -> None:
+    """Frequency and growth rate of each mode, followed over the thrust."""
+    from beal.stability.curve import thrust_curve
+    from beal.vehicle.file import load
+
+    vehicle = load(model)
+    with new_file(output) if output else nullcontext() as file:
+        found = thrust_curve(vehicle, to, points, modes, formulation)  # type: ignore[arg-type]  # checked there
+        columns = _columns(found)
+        if file:
+            write_columns(file, columns)
+    if as_json:
+        data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
+        emit({**data, "units": vehicle.units, "file": str(output) if output else None})
+    elif output:
+        note(f"{points} thrusts and {modes} modes written to {output}")
+    else:
+        show_table(list(columns), list(zip(*(column.tolist() for column in columns.values()), strict=True)))
+
+
+def _columns(found: "ThrustCurve") -> dict[str, Any]:
+    """The thrust, then frequency and growth rate of each mode."""
+    columns: dict[str, Any] = {"thrust": found.thrust}
+    for name in ("angular_frequency", "growth_rate"):
+        columns |= {f"{name}_{n}": column for n, column in enumerate(getattr(found, name).T, 1)}
+    return columns

@@ -1,0 +1,91 @@
+"""``beal map`` and ``beal reproduce``: many vehicles, with progress on standard error."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from beal.cli.options import AsJson
+from beal.cli.output import check_folder, emit, note
+from beal.errors import ModelError
+
+
+def map_study(
+    study: Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (TOML).", show_default=False)],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="OUT.zarr", help="Result.", show_default=False)],
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with what an earlier run left.")] = False,
+    workers: Annotated[int | None, typer.Option("--workers", metavar="N", help="Number of processes.", min=1)] = None,
+    scheduler: Annotated[str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Not available.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Critical thrust, kind, modes, frequency and error over a grid of parameters."""
+    if scheduler is not None:
+        raise ModelError("--scheduler: clusters are not supported; leave it out and use --workers on this machine")
+    check_folder(output)
+    from beal.study.file import load_study
+    from beal.study.map import run_study
+
+    task = load_study(study)
+    try:
+        with _progress("points") as progress:
+            found = run_study(task, output, resume=resume, workers=workers, progress=progress)
+    except KeyboardInterrupt:
+        note(f"interrupted; beal map {study} -o {output} --resume goes on with it")
+        raise
+    data = {"file": str(output), **_counts(found)}
+    if as_json:
+        emit(data)
+        return
+    kinds = ", ".join(f"{number} {kind}" for kind, number in data["kinds"].items())
+    print(f"{output}: {data['points']} points ({kinds}; {data['failed']} failed)")
+    if data["lowest"] is not None:
+        print(f"critical thrust from {data['lowest']:.6g} to {data['highest']:.6g}")
+
+
+def _counts(found: Any) -> dict[str, Any]:
+    """How many points of each kind, and the range of the critical thrust."""
+    import numpy as np
+
+    done = found["status"].values == 0
+    kinds = found["kind"].values[done]
+    thrust = found["critical_thrust"].values[done]
+    thrust = thrust[np.isfinite(thrust)]
+    return {
+        "points": done.size,
+        "failed": int(done.size - done.sum()),
+        "kinds": {name: int(np.sum(kinds == n)) for n, name in enumerate(("stable", "flutter", "divergence"))},
+        "lowest": thrust.min() if thrust.size else None,
+        "highest": thrust.max() if thrust.size else None,
+    }
+
+
+def reproduce(
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder.", show_default=False)],
+    points: Annotated[int | None, typer.Option(metavar="N", help="Points per axis of each map.", min=2)] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Regenerate Irani & Kavianipour (2009): every figure, its data, every claim, and a report."""
+    check_folder(output)
+    from beal.paper.reproduce import reproduce as run
+
+    with _progress("steps") as progress:
+        run(output, points=points, progress=progress)
+    report = output / "report.html"
+    if as_json:
+        emit({"directory": str(output), "report": str(report), "claims": str(output / "claims.json")})
+    else:
+        print(f"report: {report}")
+
+
+@contextmanager
+def _progress(what: str) -> Iterator[Callable[[int, int], None]]:
+    """A bar on standard error that is moved by (done, total)."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

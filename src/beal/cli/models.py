@@ -1,0 +1,95 @@
+"""``beal check`` and ``beal example``: model files themselves."""
+
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from beal.cli.options import AsJson, Model
+from beal.cli.output import cell, emit, new_file, show_table
+from beal.errors import ModelError
+
+UNITS = {
+    "length": "m",
+    "mass": "kg",
+    "centre_of_mass": "m",
+    "moment_of_inertia": "kg m^2",
+    "nominal_thrust": "N",
+    "from": "m",
+    "to": "m",
+    "station": "m",
+    "mass_per_length": "kg/m",
+    "bending_stiffness": "N m^2",
+    "rotary_inertia": "kg m^2",
+    "rotational_stiffness": "N m/rad",
+    "shear_stiffness": "N/m",
+    "reference_length": "m",
+    "reference_mass_per_length": "kg/m",
+    "reference_bending_stiffness": "N m^2",
+    "thrust_scale": "N",
+    "time_scale": "s",
+}
+EXAMPLES = ("beck", "beal", "pflueger", "tsto")
+
+
+def check(model: Model, as_json: AsJson = False) -> None:
+    """Show the resolved model, or every error in it."""
+    from beal.vehicle.file import load
+    from beal.vehicle.summary import summary
+
+    try:
+        resolved = summary(load(model))
+    except ModelError as error:
+        if as_json:
+            emit({"errors": [{"path": path, "message": message} for path, message in error.problems]})
+        raise
+    if as_json:
+        emit(resolved)
+    else:
+        _show(resolved)
+
+
+def _show(resolved: dict[str, Any]) -> None:
+    groups = resolved.pop("nondimensional")
+    units = UNITS if resolved["units"] == "SI" else {}
+    _show_part(resolved, units)
+    print("\nnondimensional groups, P L^2/EI, k_r L/EI, k_s L^3/EI, and what they refer to")
+    references = {name: units[name] for name in groups if name.startswith("reference") or "scale" in name if units}
+    _show_part(groups, references)
+
+
+def _show_part(part: dict[str, Any], units: dict[str, str]) -> None:
+    for name, value in part.items():
+        if isinstance(value, list):
+            if value:
+                columns = [_titled(key, units) for key in value[0]]
+                show_table(columns, [list(row.values()) for row in value], name.replace("_", " "))
+        elif value not in (None, ""):
+            text = ", ".join(f"{key} {item}" for key, item in value.items()) if isinstance(value, dict) else cell(value)
+            print(f"{name.replace('_', ' ')}: {text} {units.get(name, '')}".rstrip())
+
+
+def _titled(name: str, units: dict[str, str]) -> str:
+    title = name.replace("_", " ")
+    return f"{title} [{units[name]}]" if name in units else title
+
+
+def example(
+    name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(EXAMPLES)}.", show_default=False)],
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write it there.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Print a commented model file of the catalog, or write it to a new file."""
+    if name not in EXAMPLES:
+        raise ModelError(f"NAME: must be one of {', '.join(EXAMPLES)}, found {name!r}")
+    text = (files("beal.cli") / "examples" / f"{name}.toml").read_text(encoding="utf-8")
+    if output:
+        if output.exists():
+            raise ModelError("exists already; give the name of a new file", str(output))
+        with new_file(output) as file:
+            file.write(text)
+    if as_json:
+        emit({"name": name, "model": text, "file": str(output) if output else None})
+    elif not output:
+        print(text, end="")

@@ -1,0 +1,92 @@
+"""``beal response``: time histories at the sensors."""
+
+from contextlib import nullcontext
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from beal.cli.options import AsJson, Model, Table
+from beal.cli.output import emit, new_file, note, show_table, write_columns
+from beal.errors import ModelError
+
+if TYPE_CHECKING:
+    from beal.response import Initial, Response
+
+HISTORIES = ("displacement", "rate", "slope")
+INITIAL = "expected mode:NUMBER:AMPLITUDE or release:DEFLECTION[:STATION]"
+
+
+def response(
+    model: Model,
+    duration: Annotated[float, typer.Option("--duration", metavar="T", help="Length of time.", show_default=False)],
+    step: Annotated[float | None, typer.Option("--step", metavar="DT", help="Time step, else a fitting one.")] = None,
+    method: Annotated[str, typer.Option("--method", help="newmark or exact.")] = "newmark",
+    thrust: Annotated[float | None, typer.Option("--thrust", metavar="P", help="Else thrust.nominal.")] = None,
+    initial: Annotated[
+        str | None,
+        typer.Option(help="Start: mode:NUMBER:AMPLITUDE, or release:DEFLECTION[:STATION]; else at rest."),
+    ] = None,
+    output: Table = None,
+    as_json: AsJson = False,
+) -> None:
+    """Motion at the sensors under a constant thrust and the transverse forces."""
+    from beal.discretise.build import discretise
+    from beal.response import response as motion_of
+    from beal.stability.spectrum import spectrum
+    from beal.vehicle.file import load
+
+    vehicle = load(model)
+    start = _initial(initial) if initial else None
+    with new_file(output) if output else nullcontext() as file:
+        operators = discretise(vehicle)
+        found = motion_of(operators, duration, thrust, step=step, method=method, initial=start)  # type: ignore[arg-type]
+        growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max())
+        if file:
+            write_columns(file, _columns(found))
+    if as_json:
+        sensors = {name: {what: getattr(found, what)[n] for what in HISTORIES} for n, name in enumerate(found.sensors)}
+        emit(
+            {
+                "time": found.time,
+                "sensors": sensors,
+                "method": found.method,
+                "step": found.step,
+                "thrust": found.thrust,
+                "growth_rate": growth,
+                "units": vehicle.units,
+                "file": str(output) if output else None,
+            }
+        )
+        return
+    state = "stable" if growth <= 0 else f"unstable, its motion grows as exp({growth:.4g} t)"
+    print(f"P = {found.thrust:.9g}: {state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}")
+    largest = [[name, *(abs(getattr(found, what)[n]).max().item() for what in HISTORIES)] for n, name in _named(found)]
+    show_table(["name", *(f"largest {what}" for what in HISTORIES)], largest)
+    if output:
+        note(f"histories written to {output}")
+
+
+def _initial(text: str) -> "Initial":
+    from beal.response import ModeShape, Release
+
+    kind, *numbers = text.split(":")
+    try:
+        match kind, numbers:
+            case "mode", [number, amplitude]:
+                return ModeShape(int(number), float(amplitude))
+            case "release", [deflection, *station] if len(station) < 2:
+                return Release(float(deflection), *map(float, station))
+    except ValueError:
+        raise ModelError(f"--initial: {INITIAL} with numbers, found {text!r}") from None
+    raise ModelError(f"--initial: {INITIAL}, found {text!r}")
+
+
+def _named(found: "Response") -> "list[tuple[int, str]]":
+    return list(enumerate(found.sensors))
+
+
+def _columns(found: "Response") -> dict[str, Any]:
+    columns: dict[str, Any] = {"time": found.time}
+    for n, name in _named(found):
+        columns |= {f"{name}_{what}": getattr(found, what)[n] for what in HISTORIES}
+    return columns

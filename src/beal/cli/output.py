@@ -1,0 +1,138 @@
+"""What the command prints and writes: strict JSON, tables, numbers with the digits that they deserve, whole files."""
+
+import csv
+import json
+import math
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TextIO
+
+from beal.errors import ModelError
+
+MOST_DIGITS = 9
+
+
+def emit(data: dict[str, Any]) -> None:
+    """Print one JSON object: arrays as lists, what is not finite as null."""
+    print(json.dumps(_plain(data), allow_nan=False))
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def note(message: str) -> None:
+    """Print a message beside the result, on standard error."""
+    print(f"beal: {message}", file=sys.stderr)
+
+
+def show_table(columns: Sequence[str], rows: Sequence[Sequence[object]], title: str = "") -> None:
+    """Print a table; numbers with six significant digits, nothing where there is none."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title or None, title_justify="left")
+    for column in columns:
+        table.add_column(column, justify="left" if column == "name" else "right")
+    for row in rows:
+        table.add_row(*map(cell, row))
+    console = Console(markup=False, highlight=False, emoji=False)
+    if not console.is_terminal:
+        console.width = 160  # a pipe has no width: do not fold
+    console.print(table)
+
+
+def cell(value: object) -> str:
+    """A value as a table shows it."""
+    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def digits(value: float, error: float | None) -> str:
+    """The number with as many digits as its error supports.
+
+    Examples
+    --------
+    >>> digits(106.43723149, 1e-9), digits(106.43723149, 0.004), digits(106.4, None)
+    ('106.437231', '106.44', '106.4')
+    """
+    if error is None or value == 0:
+        return f"{value:.6g}"
+    known = MOST_DIGITS
+    if error > 0:
+        known = math.floor(math.log10(abs(value))) - math.ceil(math.log10(2 * error)) + 1
+    return f"{value:#.{min(max(known, 1), MOST_DIGITS)}g}".rstrip(".")
+
+
+def quantity(value: float, unit: str, error: float | None = None) -> str:
+    """The number with its digits and a unit prefix, k or M.
+
+    Examples
+    --------
+    >>> quantity(106437.25, "N"), quantity(106.25, "")
+    ('106.437 kN', '106.25')
+    """
+    if not unit:
+        return digits(value, error)
+    factor, prefix = next(((f, p) for f, p in ((1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
+    return f"{digits(value / factor, None if error is None else error / factor)} {prefix}{unit}"
+
+
+@contextmanager
+def new_file(path: Path) -> Iterator[TextIO]:
+    """A text file that appears under its name when all of it is written.
+
+    Parameters
+    ----------
+    path : Path
+        In a folder that exists; a file that is there is replaced.
+
+    Raises
+    ------
+    ModelError
+        If no file can be written there.
+    """
+    target = path.resolve()
+    if target.exists() and not target.is_file():  # replacing a folder or a device would destroy it
+        raise ModelError("cannot be written: is not a regular file; give the name of a file", str(path))
+    part = target.with_name(f".beal-{os.getpid()}.part")
+    try:
+        file = part.open("x", encoding="utf-8", newline="")
+    except OSError as error:
+        message = f"cannot be written: {error.strerror}; give a file in a folder that exists and may be written"
+        raise ModelError(message, str(path)) from None
+    try:
+        with file:
+            yield file
+        part.replace(target)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def check_folder(path: Path) -> None:
+    """Refuse the name of a result folder that cannot be made.
+
+    Raises
+    ------
+    ModelError
+        If it is a file, or the folder above it does not exist.
+    """
+    if path.exists() and not path.is_dir():
+        raise ModelError("cannot be written: is a file; give the name of a folder", str(path))
+    if not path.resolve().parent.is_dir():
+        raise ModelError("cannot be written: the folder above does not exist; make it first", str(path))
+
+
+def write_columns(file: TextIO, columns: dict[str, Any]) -> None:
+    """Write equally long columns as CSV, with all digits."""
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))

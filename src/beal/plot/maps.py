@@ -1,0 +1,129 @@
+"""Maps of the critical thrust over two properties: height as colour, kind and modes as borders, hatching and labels."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beal.plot.style import BLACK, axes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from xarray import Dataset
+
+FLUTTER, DIVERGENCE = 1, 2
+SMALLEST_LABEL = 0.012  # share of the map below which a region has no label of its own
+NAMES = {"joint[0].rotational_stiffness": "rotational stiffness k_r L/EI", "joint[0].shear_stiffness": "shear stiffness k_s L³/EI"}
+
+
+def stability_map(
+    chart: "Dataset",
+    ax: "Axes | None" = None,
+    limits: tuple[float, float] | None = None,
+    colorbar: bool = True,
+) -> "Axes":
+    """Draw the critical thrust over the two axes of a map.
+
+    Colour is the critical thrust; black lines part regions in which another kind of instability, or another pair of
+    modes, comes first; divergence is hatched; points that are stable to the end of the search are white.
+
+    Parameters
+    ----------
+    chart : Dataset
+        From `beal.stability_map`, with two dimensions; both axes are drawn logarithmically where they are positive.
+    ax : Axes, optional
+    limits : (float, float), optional
+        Thrusts at the ends of the colour scale.
+    colorbar : bool
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    across, up = chart.critical_thrust.dims
+    x, y = (np.asarray(chart[name], dtype=float) for name in (across, up))
+    x_edges, y_edges = _edges(x), _edges(y)
+    region = _regions(chart)
+    mesh = _colours(ax, x_edges, y_edges, np.asarray(chart.critical_thrust, dtype=float), limits)
+    _hatching(ax, x_edges, y_edges, np.asarray(chart.kind) == DIVERGENCE)
+    _borders(ax, x_edges, y_edges, region)
+    _labels(ax, x, y, region)
+    for name, values, scale, label in ((across, x, ax.set_xscale, ax.set_xlabel), (up, y, ax.set_yscale, ax.set_ylabel)):
+        if (values > 0).all():
+            scale("log")
+        label(NAMES.get(str(name), str(name)))
+    ax.set_xlim(x_edges[0], x_edges[-1])
+    ax.set_ylim(y_edges[0], y_edges[-1])
+    if colorbar:
+        ax.figure.colorbar(mesh, ax=ax, label="critical thrust P L²/EI", extend="max" if limits else "neither")
+    return ax
+
+
+def _colours(
+    ax: "Axes", x: NDArray[Any], y: NDArray[Any], thrust: NDArray[Any], limits: tuple[float, float] | None
+) -> "QuadMesh":
+    low, high = limits or (0.0, float(np.nanmax(thrust, initial=1.0)))
+    return ax.pcolormesh(x, y, thrust.T, cmap="cividis", vmin=low, vmax=high, rasterized=True, zorder=0)
+
+
+def _hatching(ax: "Axes", x: NDArray[Any], y: NDArray[Any], hatched: NDArray[np.bool_]) -> None:
+    if hatched.any():
+        only = np.ma.masked_where(~hatched.T, np.ones(hatched.T.shape))
+        ax.pcolor(x, y, only, hatch="////", alpha=0.0, edgecolor="white", linewidth=0.0, zorder=1)
+
+
+def _borders(ax: "Axes", x: NDArray[Any], y: NDArray[Any], region: NDArray[np.int_]) -> None:
+    """Lines between cells of different regions, along the edges of the cells."""
+    for i, j in zip(*np.nonzero(region[1:] != region[:-1]), strict=True):
+        ax.plot([x[i + 1]] * 2, y[j : j + 2], color=BLACK, linewidth=1.3, zorder=2, solid_capstyle="projecting")
+    for i, j in zip(*np.nonzero(region[:, 1:] != region[:, :-1]), strict=True):
+        ax.plot(x[i : i + 2], [y[j + 1]] * 2, color=BLACK, linewidth=1.3, zorder=2, solid_capstyle="projecting")
+
+
+def _labels(ax: "Axes", x: NDArray[Any], y: NDArray[Any], region: NDArray[np.int_]) -> None:
+    """The name of each kind and pair, in the cell that lies deepest inside its largest patch."""
+    for value in np.unique(region):
+        depth = _depth(region == value)
+        if np.mean(region == value) < SMALLEST_LABEL:
+            continue
+        i, j = np.unravel_index(np.argmax(depth), depth.shape)
+        box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": BLACK, "linewidth": 0.6, "alpha": 0.92}
+        ax.text(x[i], y[j], _name(int(value)), ha="center", va="center", fontsize=8, bbox=box, zorder=3)
+
+
+def _depth(inside: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Number of cells to the nearest cell outside; the border of the map counts half."""
+    depth = np.zeros(inside.shape)
+    grown = np.pad(inside, 1, mode="edge")
+    grown[[0, -1], :] = grown[:, [0, -1]] = False
+    while grown.any():
+        depth += grown[1:-1, 1:-1]
+        core = grown.copy()
+        core[1:-1, 1:-1] &= grown[:-2, 1:-1] & grown[2:, 1:-1] & grown[1:-1, :-2] & grown[1:-1, 2:]
+        if (core == grown).all():
+            break
+        grown = core
+    return depth
+
+
+def _regions(chart: "Dataset") -> NDArray[np.int_]:
+    """One number for each kind and pair of modes."""
+    kind, low, high = (np.asarray(chart[name]).astype(int) for name in ("kind", "mode_low", "mode_high"))
+    return np.where(kind == 0, 0, 10_000 * kind + 100 * low + high)
+
+
+def _name(region: int) -> str:
+    kind, pair = divmod(region, 10_000)
+    low, high = divmod(pair, 100)
+    return {0: "stable", FLUTTER: f"flutter {low}–{high}", DIVERGENCE: f"divergence {low}"}[kind]
+
+
+def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Borders between neighbouring values, in the logarithm where all are positive."""
+    log = bool((values > 0).all())
+    v = np.log(values) if log else values
+    middle = (v[1:] + v[:-1]) / 2
+    edges = np.concatenate([[v[0] - (middle[0] - v[0])], middle, [v[-1] + (v[-1] - middle[-1])]])
+    return np.asarray(np.exp(edges) if log else edges)

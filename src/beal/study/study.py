@@ -1,0 +1,107 @@
+"""A study: a vehicle, the axes of a grid over its quantities, and how each point is solved."""
+
+import hashlib
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from beal.discretise import FORMULATIONS, Formulation
+from beal.errors import ModelError
+from beal.vehicle.file import dumps
+from beal.vehicle.paths import with_values
+from beal.vehicle.vehicle import Vehicle
+
+POINTS = 10_000_000  # beyond this a grid is more likely a mistake than a plan
+
+
+@dataclass(frozen=True)
+class Solve:
+    """How each point is solved.
+
+    Parameters
+    ----------
+    max_thrust : float or None
+        Thrust to search to, in N; by default that of `beal.critical_thrust` for each vehicle.
+    tolerance : float
+        Relative error of the critical thrust to reach.
+    formulation : str
+    modes : int or None
+        Number of modes of the Ritz formulations.
+    """
+
+    max_thrust: float | None = None
+    tolerance: float = 1e-6
+    formulation: Formulation = "objective"
+    modes: int | None = None
+
+
+@dataclass(frozen=True)
+class Study:
+    """A grid of vehicles.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    axes : mapping of str to tuple of float
+        Values of each quantity, named by its path in the model; the first axis varies slowest.
+    solve : Solve
+    """
+
+    vehicle: Vehicle
+    axes: Mapping[str, tuple[float, ...]]
+    solve: Solve
+
+    def __post_init__(self) -> None:
+        problems = []
+        for path, values in self.axes.items():
+            if not values:
+                problems.append((f"grid.{path}", "needs at least one value, found none"))
+            elif not all(isinstance(value, int | float) and not math.isnan(value) for value in values):
+                problems.append((f"grid.{path}", "values must be numbers, found something else"))
+        if not self.axes:
+            problems.append(("grid", "needs at least one axis, found none"))
+        if math.prod(self.shape) > POINTS:
+            problems.append(("grid", f"at most {POINTS} points, found {math.prod(self.shape)}"))
+        if self.solve.formulation not in FORMULATIONS:
+            choices = ", ".join(FORMULATIONS)
+            problems.append(("solve.formulation", f"must be one of {choices}, found {self.solve.formulation!r}"))
+        if not 1e-13 <= self.solve.tolerance < 1:
+            problems.append(("solve.tolerance", f"must lie between 1e-13 and 1, found {self.solve.tolerance}"))
+        if problems:
+            raise ModelError(problems)
+        for path in self.axes:
+            self.at((0,) * len(self.axes), only=path)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points along each axis."""
+        return tuple(len(values) for values in self.axes.values())
+
+    def at(self, index: Sequence[int], only: str | None = None) -> Vehicle:
+        """The vehicle at a grid point, or with the quantity of one axis alone replaced."""
+        values = {path: axis[i] for (path, axis), i in zip(self.axes.items(), index, strict=True)}
+        return with_values(self.vehicle, {only: values[only]} if only else values)
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """Everything that the result depends on, each part as text, so that two studies can be compared."""
+        parts = {"model": dumps(self.vehicle)}
+        parts |= {f"grid.{path}": json.dumps(values) for path, values in self.axes.items()}
+        return parts | {f"solve.{name}": json.dumps(value) for name, value in asdict(self.solve).items()}
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the inputs."""
+        return hashlib.sha256(json.dumps(self.inputs, sort_keys=True).encode()).hexdigest()
+
+
+def spaced(start: float, stop: float, points: int, spacing: str) -> tuple[float, ...]:
+    """Evenly spaced values, linearly or in their logarithm, both ends included and exact."""
+    if spacing == "log":
+        values = np.geomspace(start, stop, points)
+    else:
+        values = np.linspace(start, stop, points)
+    return tuple(float(value) for value in values)

@@ -1,0 +1,140 @@
+"""What is written reads back equal, and units change nothing but the digits."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from beal.errors import ModelError
+from beal.units import to_si
+from beal.vehicle import Vehicle, dumps, loads, value_at, with_values
+from beal.vehicle.paths import paths
+
+FOOT, POUND = 0.3048, 0.45359237
+POUND_FORCE = POUND * 9.80665
+
+text = st.text(st.characters(codec="utf-8"), max_size=8)
+signed = st.floats(-1e6, 1e6)
+positive = st.floats(1e-6, 1e6)
+stiffness = st.just(math.inf) | st.floats(0, 1e12)
+share = st.floats(0, 1)
+end = st.sampled_from(["free", "clamped", "pinned", "sliding"])
+stage = st.fixed_dictionaries(
+    {"length": positive, "mass_per_length": positive, "bending_stiffness": positive}, optional={"name": text}
+)
+joint = st.fixed_dictionaries(
+    {},
+    optional={
+        "name": text,
+        "rotational_stiffness": stiffness,
+        "shear_stiffness": stiffness,
+        "shear_axis": st.sampled_from(["mean", "forward", "aft", "inertial"]),
+    },
+)
+signal = st.one_of(
+    st.fixed_dictionaries(
+        {"kind": st.just("sine"), "amplitude": signed, "angular_frequency": positive}, optional={"phase": signed}
+    ),
+    st.fixed_dictionaries({"kind": st.just("step"), "amplitude": signed}, optional={"start": positive}),
+    st.fixed_dictionaries({"kind": st.just("pulse"), "amplitude": signed, "duration": positive}),
+    st.lists(signed, min_size=2, max_size=5, unique=True).map(
+        lambda times: {"kind": "table", "time": sorted(times), "value": times}
+    ),
+)
+
+
+@st.composite
+def vehicles(draw):
+    stages = draw(st.lists(stage, min_size=1, max_size=4))
+    length = math.fsum(item["length"] for item in stages)
+    stations = share.map(lambda x: x * length)
+    names = draw(st.lists(text, max_size=3, unique=True))
+    return Vehicle(
+        title=draw(text),
+        units=draw(st.sampled_from(["SI", "nondimensional"])),
+        stages=stages,
+        joints=draw(st.lists(joint, min_size=len(stages) - 1, max_size=len(stages) - 1)),
+        point_masses=draw(
+            st.lists(
+                st.fixed_dictionaries({"station": stations, "mass": positive}, optional={"rotary_inertia": positive}),
+                max_size=2,
+            )
+        ),
+        support={"nose": draw(end), "tail": draw(end)},
+        thrust=draw(
+            st.fixed_dictionaries(
+                {},
+                optional={
+                    "tangency": st.floats(0, 2),
+                    "axial_force": st.sampled_from(["inertia", "constant"]),
+                    "nominal": positive,
+                },
+            )
+        ),
+        sensors=[{"name": name, "station": draw(stations)} for name in names],
+        forces=draw(st.lists(st.fixed_dictionaries({"station": stations, "signal": signal}), max_size=2)),
+    )
+
+
+@given(vehicles())
+def test_a_written_vehicle_reads_back_equal(vehicle):
+    assert loads(dumps(vehicle)) == vehicle
+
+
+@given(vehicles(), st.data())
+def test_a_replaced_quantity_is_the_one_that_is_read(vehicle, data):
+    path = data.draw(st.sampled_from([path for path in paths(vehicle) if path != "stage.split"]))
+    same = with_values(vehicle, {path: value_at(vehicle, path)})
+    assert same == vehicle
+
+
+@given(positive, positive, positive, share, positive, positive)
+def test_a_model_in_feet_and_pounds_is_the_model_in_si(length, mass, bending, station, rotational, shear):
+    stage = f"""
+[[stage]]
+length = "{length!r} ft"
+mass_per_length = "{mass!r} lb/ft"
+bending_stiffness = "{bending!r} lbf*ft^2"
+"""
+    vehicle = loads(f"""{stage}{stage}
+[[joint]]
+rotational_stiffness = "{rotational!r} ft*lbf/rad"
+shear_stiffness = "{shear!r} lbf/ft"
+
+[[point_mass]]
+station = "{station * length!r} ft"
+mass = "{mass!r} lb"
+rotary_inertia = "{mass!r} lb ft²"
+
+[thrust]
+nominal = "{bending!r} lbf"
+""")
+    expected = {f"stage[{n}].length": length * FOOT for n in (0, 1)}
+    expected |= {f"stage[{n}].mass_per_length": mass * POUND / FOOT for n in (0, 1)}
+    expected |= {f"stage[{n}].bending_stiffness": bending * POUND_FORCE * FOOT**2 for n in (0, 1)}
+    expected |= {
+        "joint[0].rotational_stiffness": rotational * POUND_FORCE * FOOT,
+        "joint[0].shear_stiffness": shear * POUND_FORCE / FOOT,
+        "point_mass[0].station": station * length * FOOT,
+        "point_mass[0].mass": mass * POUND,
+        "point_mass[0].rotary_inertia": mass * POUND * FOOT**2,
+        "thrust.nominal": bending * POUND_FORCE,
+    }
+    found = {path: value_at(vehicle, path) for path in expected}
+    assert found == pytest.approx(expected, rel=1e-13, abs=0)  # a few products, each rounded
+
+
+@given(st.text(st.sampled_from("0123456789.eE+-*/^() mftkginsNlbdHz%°²³·,_"), max_size=30))
+def test_any_text_is_a_quantity_or_a_value_error(quantity):
+    try:
+        value = to_si(quantity, "m")
+    except ValueError:
+        return
+    assert isinstance(value, float)
+
+
+@given(st.text(max_size=60) | st.text(st.sampled_from("[]{}=.\"'\nstagelnh0123 #"), max_size=60))
+def test_any_text_is_a_model_or_a_model_error(content):
+    with pytest.raises(ModelError, match=r"^model: "):
+        loads(content)
