@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beal.errors import ModelError
@@ -13,6 +13,8 @@ from beal.vehicle.paths import paths
 
 FOOT, POUND = 0.3048, 0.45359237
 POUND_FORCE = POUND * 9.80665
+
+UNTIMED = settings(deadline=None)  # the first quantity with a unit loads all units
 
 text = st.text(st.characters(codec="utf-8"), max_size=8)
 signed = st.floats(-1e6, 1e6)
@@ -77,11 +79,13 @@ def vehicles(draw):
     )
 
 
+@UNTIMED
 @given(vehicles())
 def test_a_written_vehicle_reads_back_equal(vehicle):
     assert loads(dumps(vehicle)) == vehicle
 
 
+@UNTIMED
 @given(vehicles(), st.data())
 def test_a_replaced_quantity_is_the_one_that_is_read(vehicle, data):
     path = data.draw(st.sampled_from([path for path in paths(vehicle) if path != "stage.split"]))
@@ -89,6 +93,7 @@ def test_a_replaced_quantity_is_the_one_that_is_read(vehicle, data):
     assert same == vehicle
 
 
+@UNTIMED
 @given(positive, positive, positive, share, positive, positive)
 def test_a_model_in_feet_and_pounds_is_the_model_in_si(length, mass, bending, station, rotational, shear):
     stage = f"""
@@ -125,6 +130,7 @@ nominal = "{bending!r} lbf"
     assert found == pytest.approx(expected, rel=1e-13, abs=0)  # a few products, each rounded
 
 
+@UNTIMED
 @given(st.text(st.sampled_from("0123456789.eE+-*/^() mftkginsNlbdHz%°²³·,_"), max_size=30))
 def test_any_text_is_a_quantity_or_a_value_error(quantity):
     try:
@@ -134,6 +140,7 @@ def test_any_text_is_a_quantity_or_a_value_error(quantity):
     assert isinstance(value, float)
 
 
+@UNTIMED
 @given(st.text(max_size=60) | st.text(st.sampled_from("[]{}=.\"'\nstagelnh0123 #"), max_size=60))
 def test_any_text_is_a_model_or_a_model_error(content):
     with pytest.raises(ModelError, match=r"^model: "):

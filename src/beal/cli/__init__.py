@@ -5,7 +5,7 @@
 
 import sys
 import warnings
-from typing import Any
+from typing import TextIO
 
 from beal.errors import ConvergenceError, ModelError
 
@@ -34,5 +34,12 @@ def _fail(message: str, code: int) -> None:
     sys.exit(code)
 
 
-def _warn(message: Warning | str, *_: Any) -> None:
+def _warn(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
     print(f"beal: warning: {message}", file=sys.stderr)

@@ -1,5 +1,6 @@
 """The commands, gathered."""
 
+from collections.abc import Callable
 from typing import Annotated
 
 import typer
@@ -12,15 +13,15 @@ from beal.cli.models import check, example
 from beal.cli.modes import modes
 from beal.cli.motion import response
 
-EXAMPLES = {
-    "check": "beal check tsto.toml",
-    "modes": "beal modes tsto.toml --count 4 --thrust 90",
-    "critical": "beal critical tsto.toml --all --json",
-    "curve": "beal curve tsto.toml --to 150 -o curve.csv",
-    "map": "beal map study.toml -o map.zarr",
-    "response": "beal response tsto.toml --duration 10 --initial mode:1:0.01",
-    "reproduce": "beal reproduce -o paper",
-    "example": "beal example tsto -o tsto.toml",
+COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
+    "check": (check, "beal check tsto.toml"),
+    "modes": (modes, "beal modes tsto.toml --count 4 --thrust 90"),
+    "critical": (critical, "beal critical tsto.toml --all --json"),
+    "curve": (curve, "beal curve tsto.toml --to 150 -o curve.csv"),
+    "map": (map_study, "beal map study.toml -o map.zarr"),
+    "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
+    "reproduce": (reproduce, "beal reproduce -o paper"),
+    "example": (example, "beal example tsto -o tsto.toml"),
 }
 
 app = typer.Typer(
@@ -30,17 +31,8 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for name, command in {
-    "check": check,
-    "modes": modes,
-    "critical": critical,
-    "curve": curve,
-    "map": map_study,
-    "response": response,
-    "reproduce": reproduce,
-    "example": example,
-}.items():
-    app.command(name, epilog=f"Example: {EXAMPLES[name]}")(command)
+for name, (command, line) in COMMANDS.items():
+    app.command(name, epilog=f"Example: {line}")(command)
 
 
 def _version(asked: bool) -> None:

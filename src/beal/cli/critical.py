@@ -86,7 +86,9 @@ def _instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:
     relative = _relative(vehicle, found)
     scale = vehicle.scales.thrust
     group = quantity(thrust / scale, "", None if found.error_estimate is None else found.error_estimate / scale)
-    value = f"{quantity(thrust, unit, found.error_estimate)} (P L^2/EI = {group})"
+    value = f"P L^2/EI = {group}"
+    if unit or scale != 1:
+        value = f"{quantity(thrust, unit, found.error_estimate)} ({value})"
     if found.kind == "flutter":
         text = f"flutters at {value}: {_meeting(found.modes)} meet at {_frequency(vehicle, found.angular_frequency)}"
     else:

@@ -37,6 +37,8 @@ def curve(
     elif output:
         note(f"{points} thrusts and {modes} modes written to {output}")
     else:
+        if vehicle.units == "SI":
+            print("thrust in N, angular frequency in rad/s, growth rate in 1/s")
         show_table(list(columns), list(zip(*(column.tolist() for column in columns.values()), strict=True)))
 
 
@@ -44,5 +46,5 @@ def _columns(found: "ThrustCurve") -> dict[str, Any]:
     """The thrust, then frequency and growth rate of each mode."""
     columns: dict[str, Any] = {"thrust": found.thrust}
     for name in ("angular_frequency", "growth_rate"):
-        columns |= {f"{name}_{n}": column for n, column in enumerate(getattr(found, name).T, 1)}
+        columns |= {f"{name}_{n}": column + 0.0 for n, column in enumerate(getattr(found, name).T, 1)}
     return columns

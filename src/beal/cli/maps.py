@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -11,9 +11,12 @@ from beal.cli.options import AsJson
 from beal.cli.output import check_folder, emit, note
 from beal.errors import ModelError
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 
 def map_study(
-    study: Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (TOML).", show_default=False)],
+    study: Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="OUT.zarr", help="Result.", show_default=False)],
     resume: Annotated[bool, typer.Option("--resume", help="Go on with what an earlier run left.")] = False,
     workers: Annotated[int | None, typer.Option("--workers", metavar="N", help="Number of processes.", min=1)] = None,
@@ -38,26 +41,27 @@ def map_study(
     if as_json:
         emit(data)
         return
-    kinds = ", ".join(f"{number} {kind}" for kind, number in data["kinds"].items())
-    print(f"{output}: {data['points']} points ({kinds}; {data['failed']} failed)")
+    kinds = ", ".join(f"{number} {name}" for name, number in data["kind"].items())
+    failed = ", ".join(f"{number} {name}" for name, number in data["status"].items() if number and name != "solved")
+    print(f"{output}: {data['points']} points: {kinds}" + (f"; {failed}" if failed else ""))
     if data["lowest"] is not None:
         print(f"critical thrust from {data['lowest']:.6g} to {data['highest']:.6g}")
 
 
-def _counts(found: Any) -> dict[str, Any]:
-    """How many points of each kind, and the range of the critical thrust."""
+def _counts(found: "Dataset") -> dict[str, Any]:
+    """How many points of each status and kind, and the range of the critical thrust."""
     import numpy as np
 
-    done = found["status"].values == 0
-    kinds = found["kind"].values[done]
-    thrust = found["critical_thrust"].values[done]
-    thrust = thrust[np.isfinite(thrust)]
+    status, kind, thrust = (found[name].values for name in ("status", "kind", "critical_thrust"))
+    statuses, kinds = (found[name].attrs["flag_meanings"].split() for name in ("status", "kind"))
+    solved = status == statuses.index("solved")
+    known = thrust[solved & np.isfinite(thrust)]
     return {
-        "points": done.size,
-        "failed": int(done.size - done.sum()),
-        "kinds": {name: int(np.sum(kinds == n)) for n, name in enumerate(("stable", "flutter", "divergence"))},
-        "lowest": thrust.min() if thrust.size else None,
-        "highest": thrust.max() if thrust.size else None,
+        "points": status.size,
+        "status": {name: int(np.sum(status == n)) for n, name in enumerate(statuses)},
+        "kind": {name: int(np.sum(kind[solved] == n)) for n, name in enumerate(kinds)},
+        "lowest": known.min() if known.size else None,
+        "highest": known.max() if known.size else None,
     }
 
 
@@ -68,6 +72,7 @@ def reproduce(
 ) -> None:
     """Regenerate Irani & Kavianipour (2009): every figure, its data, every claim, and a report."""
     check_folder(output)
+    output.mkdir(exist_ok=True)
     from beal.paper.reproduce import reproduce as run
 
     with _progress("steps") as progress:

@@ -32,7 +32,7 @@ def modes(
     vehicle = load(model)
     found, error = _converged(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)
     order = found.angular_frequency.argsort(kind="stable")
-    omega, growth = found.angular_frequency[order], found.growth_rate[order]
+    omega, growth = found.angular_frequency[order], found.growth_rate[order] + 0.0  # no -0
     si = vehicle.units == "SI"
     data: dict[str, Any] = {
         "angular_frequency": omega,
@@ -79,21 +79,22 @@ def _converged(vehicle: "Vehicle", thrust: float, count: int, formulation: str) 
         return spectrum(discretise(vehicle, formulation), thrust, count), None  # type: ignore[arg-type]
     if not 1 <= count <= MOST_MODES:
         raise ModelError(f"--count: must lie between 1 and {MOST_MODES}, found {count}")
-    before, best = None, (math.inf, None, None)
+    before = None
+    best: tuple[float, Spectrum, Any] | None = None
     for order in ORDERS:
         operators = discretise(vehicle, formulation, order=order)  # type: ignore[arg-type]
         if len(operators.M) - operators.rigid < count:
             continue
         found = spectrum(operators, thrust, count)
-        omega = np.sort(found.angular_frequency)
+        omega: Any = np.sort(found.angular_frequency)
         if before is not None:
             error = np.abs(omega - before)
             change = float(np.max(error / np.maximum(omega, vehicle.scales.angular_frequency)))
-            best = min(best, (change, found, error), key=lambda item: item[0])
+            if best is None or change < best[0]:
+                best = change, found, error
+            if change < GOOD:
+                break
         before = omega
-        if best[0] < GOOD:
-            break
-    change, found, error = best
-    if change > POOR:
-        raise ConvergenceError(f"modes: {count} frequencies are known to {change:.1e} only; ask for fewer with --count")
-    return found, error
+    if best is None or best[0] > POOR:
+        raise ConvergenceError(f"modes: {count} frequencies do not converge; ask for fewer with --count")
+    return best[1:]

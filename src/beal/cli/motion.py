@@ -60,6 +60,8 @@ def response(
         return
     state = "stable" if growth <= 0 else f"unstable, its motion grows as exp({growth:.4g} t)"
     print(f"P = {found.thrust:.9g}: {state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}")
+    if vehicle.units == "SI":
+        print("in N, s, m, m/s and rad")
     largest = [[name, *(abs(getattr(found, what)[n]).max().item() for what in HISTORIES)] for n, name in _named(found)]
     show_table(["name", *(f"largest {what}" for what in HISTORIES)], largest)
     if output:

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 FLUTTER, DIVERGENCE = 1, 2
 SMALLEST_LABEL = 0.012  # share of the map below which a region has no label of its own
-NAMES = {"joint[0].rotational_stiffness": "rotational stiffness k_r L/EI", "joint[0].shear_stiffness": "shear stiffness k_s L³/EI"}
+NAMES = {
+    "joint[0].rotational_stiffness": "rotational stiffness k_r L/EI",
+    "joint[0].shear_stiffness": "shear stiffness k_s L³/EI",
+}
 
 
 def stability_map(
@@ -50,7 +53,10 @@ def stability_map(
     _hatching(ax, x_edges, y_edges, np.asarray(chart.kind) == DIVERGENCE)
     _borders(ax, x_edges, y_edges, region)
     _labels(ax, x, y, region)
-    for name, values, scale, label in ((across, x, ax.set_xscale, ax.set_xlabel), (up, y, ax.set_yscale, ax.set_ylabel)):
+    for name, values, scale, label in (
+        (across, x, ax.set_xscale, ax.set_xlabel),
+        (up, y, ax.set_yscale, ax.set_ylabel),
+    ):
         if (values > 0).all():
             scale("log")
         label(NAMES.get(str(name), str(name)))

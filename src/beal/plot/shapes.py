@@ -32,9 +32,7 @@ def mode_shapes(spectrum: Spectrum, operators: Operators, ax: "Axes | None" = No
     ax = axes(ax)
     ends = operators.vehicle.boundaries
     stages = [np.linspace(front, back, STATIONS) for front, back in zip(ends, ends[1:], strict=False)]
-    rows = [
-        np.vstack([operators.shape(x[:-1], side="aft"), operators.shape(x[-1:], side="forward")]) for x in stages
-    ]
+    rows = [np.vstack([operators.shape(x[:-1], side="aft"), operators.shape(x[-1:], side="forward")]) for x in stages]
     nondimensional = operators.vehicle.units == "nondimensional"
     for joint in ends[1:-1]:
         ax.axvline(joint, color=GREY, linewidth=0.8, linestyle=(0, (1, 2)))

@@ -50,6 +50,7 @@ class ModeShape:
     at: Literal["largest", "nose"] = "largest"
 
     def coordinates(self, operators: Operators) -> tuple[Array, Array]:
+        """q and q' of the mode at rest, shape (n,) each."""
         elastic = len(operators.M) - operators.rigid
         if not 1 <= self.number <= elastic:
             raise ModelError(f"initial: mode number must lie in 1 to {elastic}, found {self.number}")
@@ -95,6 +96,7 @@ class Release:
     station: float = 0.0
 
     def coordinates(self, operators: Operators) -> tuple[Array, Array]:
+        """q and q' of the static shape at rest, shape (n,) each."""
         length = operators.vehicle.length
         if not 0 <= self.station <= length:
             raise ModelError(f"initial: station must lie on the vehicle, 0 to {length:.12g}, found {self.station}")
@@ -146,6 +148,7 @@ class Samples:
     rate: ArrayLike | None = None
 
     def coordinates(self, operators: Operators) -> tuple[Array, Array]:
+        """q and q' that fit the samples, shape (n,) each."""
         station, deflection = (
             np.atleast_1d(self.station).astype(float),
             np.atleast_1d(self.deflection).astype(float),

@@ -52,9 +52,15 @@ def newmark(
     ModelError
         If beta or gamma makes the method unstable at every step.
 
-    Notes ----- N. M. Newmark (1959), A method of computation for structural dynamics, J. Eng. Mech. Div.
-    85(3), 67-94. Of second order for gamma = 1/2, of first order with numerical damping for gamma > 1/2.
-    Where 2 beta < gamma the step must stay below ``largest_step``.
+    Notes
+    -----
+    Of second order for gamma = 1/2, of first order with numerical damping for gamma > 1/2. Where 2 beta < gamma the
+    step must stay below ``largest_step``.
+
+    References
+    ----------
+    Newmark, N. M., 1959. A method of computation for structural dynamics. Journal of the Engineering Mechanics
+    Division, 85(3), 67-94.
 
     Examples
     --------

@@ -82,8 +82,11 @@ def response(
     CoarseStepWarning
         If Newmark's step is longer than a tenth of the shortest period of interest.
 
-    Notes ----- The quasi-static deflection of the modes left out under F(t) is missing. An instability in a
-    mode beyond ``modes`` does not show.
+    Notes
+    -----
+    The quasi-static deflection of the modes left out under F(t) is missing. Twelve modes of two equal stages read
+    at the tail, where a step force acts, lack 0.04 % of the largest elastic deflection. An instability in a mode
+    beyond ``modes`` does not show.
 
     Examples
     --------
@@ -189,7 +192,9 @@ def _shortest_period(reduced: ReducedEquations, vehicle: Vehicle) -> float:
 def _count(duration: float, step: float) -> int:
     count = math.ceil(duration / step * (1 - 1e-12))  # a step that divides the duration stays as it is
     if count > MOST_STEPS:
-        raise ModelError(f"step: at most {MOST_STEPS} steps are taken, found {count}; shorten the duration or the step")
+        raise ModelError(
+            f"step: at most {MOST_STEPS} steps are taken, found {count}; shorten the duration or lengthen the step"
+        )
     return count
 
 

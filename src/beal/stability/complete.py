@@ -15,7 +15,8 @@ import scipy.linalg
 
 from beal.stability.double_root import coalescence, divergence
 from beal.stability.pencil import Array, Pencil
-from beal.stability.ridge import ZERO, Kind, meeting_pair, rigid_body_root
+from beal.stability.ridge import Kind, meeting_pair
+from beal.stability.zero_roots import ZERO, rigid_body_root
 
 NEARLY_REAL = 1e-3  # relative imaginary part of a thrust up to which a real critical point is looked for beside it
 SAME = 1e-9
@@ -96,7 +97,7 @@ def _double_roots(pencil: Pencil, limit: float) -> Array:
     n = len(root)
     pairs = np.array(list(combinations(range(n), 2)))
     i, j = pairs.T
-    size = np.sqrt(np.abs(np.diag(A0)[i]) + np.abs(np.diag(A0)[j]))  # grades the problem like the low roots
+    size = np.sqrt(np.abs(np.diag(A0)[i]) + np.abs(np.diag(A0)[j]) + pencil.shift)  # grades the problem like the low roots
     select = np.zeros((n * n, len(pairs)))
     select[i * n + j, np.arange(len(pairs))] = 1 / size
     select[j * n + i, np.arange(len(pairs))] = -1 / size
@@ -148,6 +149,7 @@ def _polished(pencil: Pencil, thrust: float, kind: str, watched: int, neutral: b
             point = divergence(pencil, thrust, neutral)
             if point.converged:
                 points.append((point.thrust, 0.0, "divergence"))
+                continue
         point = coalescence(pencil, thrust, W)
         if point.converged and abs(point.thrust - thrust) < 1e-2 * thrust:
             points.append((point.thrust, point.W, "flutter"))

@@ -19,7 +19,8 @@ from beal.errors import ConvergenceError, ModelError
 from beal.stability.complete import Event, events
 from beal.stability.double_root import CriticalPoint, coalescence, divergence
 from beal.stability.pencil import Pencil, pencil, reduced
-from beal.stability.ridge import Instability, Kind, Search, rigid_body_root
+from beal.stability.ridge import Instability, Kind, Search, meeting_pair
+from beal.stability.zero_roots import mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 HALF_WAVES = 5  # of the buckling shape whose thrust ends the search by default
@@ -246,12 +247,16 @@ def _floats(operators: Operators) -> bool:
 
 
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
+    if method not in ("fast", "complete"):
+        raise ModelError(f"method: must be fast or complete, found {method!r}")
+    if kind := mechanism(small, task.limit):
+        modes = (1, 1) if kind == "divergence" else meeting_pair(small, 0.0, 0.0)
+        return Instability(_start(Event(0.0, 0.0, kind, modes, 1, 0)), kind, modes)
     if method == "fast":
         return Search(small, task.limit, task.steps, task.watched).first()
-    if method != "complete":
-        raise ModelError(f"method: must be fast or complete, found {method!r}")
+    own = rigid_body_root(small, task.limit) == "tumbling"  # a root that may come back and leave again
     for event in events(small, task.limit, task.watched):
-        if event.change == "destabilises":
+        if event.unstable > max(event.before, own and event.kind == "divergence"):
             return Instability(_start(event), event.kind, event.modes)
     return None
 

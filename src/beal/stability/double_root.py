@@ -18,6 +18,7 @@ import scipy.linalg
 from beal.stability.pencil import Array, Pencil
 
 STEPS = 30
+FAR = 100.0  # times the guess: Newton's method has lost its way
 ROUNDING = 10 * float(np.finfo(float).eps)  # of an assembled matrix entry: a sum of tens of products
 
 
@@ -104,6 +105,7 @@ def coalescence(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
     """
     b, c = _borders(pencil, thrust, W)
     here = _bordered(pencil, thrust, W, b, c)
+    far = FAR * abs(thrust), FAR * (abs(W) + pencil.shift)
     converged = False
     for _ in range(STEPS):
         determinant = here.g_P * here.g_WW - here.g_W * here.g_WP
@@ -112,6 +114,9 @@ def coalescence(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
         step_P = (here.g * here.g_WW - here.g_W**2) / determinant
         step_W = (here.g_P * here.g_W - here.g_WP * here.g) / determinant
         thrust, W = thrust - step_P, W - step_W
+        if not (abs(thrust) < far[0] and abs(W) < far[1]):
+            converged = False
+            break
         here = _bordered(pencil, thrust, W, b, c)
         if converged:  # one step past the tolerance, since convergence is quadratic
             break
@@ -136,6 +141,7 @@ def divergence(pencil: Pencil, thrust: float, neutral: bool = False) -> Critical
     """
     b, c = _borders(pencil, thrust, 0.0)
     here = _bordered(pencil, thrust, 0.0, b, c)
+    far = FAR * abs(thrust)
     converged = False
     for _ in range(STEPS):
         value, slope = (here.g_W, here.g_WP) if neutral else (here.g, here.g_P)
@@ -143,6 +149,9 @@ def divergence(pencil: Pencil, thrust: float, neutral: bool = False) -> Critical
             break
         step = value / slope
         thrust -= step
+        if not abs(thrust) < far:
+            converged = False
+            break
         here = _bordered(pencil, thrust, 0.0, b, c)
         if converged:
             break

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from beal.errors import ConvergenceError
 from beal.stability.double_root import CriticalPoint, coalescence, divergence
 from beal.stability.pencil import Array, ComplexArray, Pencil
+from beal.stability.zero_roots import ZERO, rigid_body_root
 
 Kind = Literal["flutter", "divergence"]
 
 REAL = 1e-4  # relative imaginary part up to which rounding may split a pair of real roots that nearly meet
-ZERO = 1e-6  # |W| below this share of the pencil's shift is zero to rounding
 FLAT = 1e-9  # height, as a share of the ridge's at the start, above which -height still counts as touching zero
 DIP = 0.5  # an interval is looked at again where a ridge dips below this share of its height at both ends
 NARROW = 1e-7  # share of the thrust searched below which an interval is not divided further
@@ -84,8 +84,11 @@ class Search:
         self._pairs = min(watched + pencil.rigid, len(pencil.M)) - 1
         self._sign = (-1.0) ** np.arange(self._pairs + 1)
         self._scale = np.ones(self._pairs + 1)
-        start = [np.abs(self.state(thrust).heights) for thrust in (0.0, limit / steps)]
-        self._scale = np.max([height for height in start if len(height)], axis=0)
+        scale = np.zeros(self._pairs + 1)
+        for thrust in (0.0, 1e-3 * limit, limit / steps):  # a ridge between zero roots has no height at first
+            height = np.abs(self.state(thrust).heights)
+            scale = np.where(scale > FLAT * height, scale, height) if len(height) else scale
+        self._scale = scale
 
     def state(self, thrust: float) -> State:
         """Roots and ridges at one thrust."""
@@ -100,7 +103,8 @@ class Search:
         heights, slopes = here / self._scale, (after - before) / (2 * delta * self._scale)
         if self._drift:  # D(P, 0) carries the rigid-body root and says nothing of the elastic ones
             heights[0], slopes[0] = 1.0, 0.0
-        diverged = roots[self._lowest].real < -ZERO * self.pencil.shift
+        driven = np.delete(roots, np.abs(roots).argmin()) if self._drift == "neutral" else roots[self._lowest :]
+        diverged = driven[0].real < -ZERO * self.pencil.shift
         stable = bool(np.all(heights > -FLAT)) and not diverged
         return State(thrust, roots, True, stable, ridges, heights, slopes)
 
@@ -116,13 +120,6 @@ class Search:
             If an unstable interval was bracketed but its critical point could not be resolved.
         """
         left = self.state(0.0)
-        if abs(left.roots[self.pencil.rigid]) < ZERO * self.pencil.shift:  # a mechanism: a joint without stiffness
-            probe = self.state(NARROW * self.limit)
-            if not probe.stable:
-                kind: Kind = "divergence" if probe.real else "flutter"
-                modes = (1, 1) if probe.real else meeting_pair(self.pencil, probe.thrust, 0.0)
-                zero = np.zeros(len(self.pencil.M))
-                return Instability(CriticalPoint(0.0, 0.0, True, 0.0, zero, zero), kind, modes)
         for thrust in np.linspace(0.0, self.limit, self.steps + 1)[1:]:
             right = self.state(float(thrust))
             if found := self._within(left, right):
@@ -160,8 +157,8 @@ class Search:
             for share, ridge in sorted(shares):
                 W = (1 - share) * left.ridges[ridge] + share * right.ridges[ridge]
                 yield ("divergence" if ridge == 0 else "flutter"), left.thrust + share * span, W
-            first, last = left.roots[self.pencil.rigid].real, right.roots[self._lowest].real
-            if last < 0 < first:
+            first, last = left.roots[int(self._drift != "")].real, right.roots[self._lowest].real
+            if last < 0 and first > ZERO * self.pencil.shift:
                 yield "divergence", left.thrust + span * first / (first - last), 0.0
             return
         split = np.flatnonzero(right.roots[:-1].imag != 0)
@@ -181,35 +178,17 @@ class Search:
         inside = left.thrust < point.thrust <= right.thrust
         if not (point.converged and inside):
             return None
-        nearest = 1e-3 if neutral else 1e-5  # a root that meets a zero one is lost in rounding closer by
-        margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
-        before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
-        if not before.stable or after.stable or self._within(left, before):
+        for nearest in (1e-5, 1e-3):  # a root that meets a zero one, or is all but zero, is lost in rounding closer by
+            margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
+            before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
+            if before.stable and not after.stable:
+                break
+        else:
+            return None
+        if self._within(left, before):
             return None
         modes = (1, 1) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
         return Instability(point, kind, modes)
-
-
-def rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tumbling"]:
-    """Where the rigid-body root goes under thrust: it stays zero, or turns negative and the vehicle tumbles."""
-    if not pencil.rigid:
-        return ""
-    nearest = [np.abs(pencil.roots(share * limit)).min() for share in (0.0013, 0.0029)]
-    if max(nearest) < ZERO * pencil.shift:
-        return "neutral"
-    return "tumbling" if _initial_drift(pencil, limit) < 0 else ""
-
-
-def _initial_drift(pencil: Pencil, limit: float) -> float:
-    """Generalised stiffness that the rigid-body motion gains from the first thrust, up to a positive factor.
-
-    K(P) with the elastic coordinates eliminated is P K1_rr - P^2 K1_re K0_ee^-1 K1_er + ...
-    """
-    r = pencil.rigid
-    first = limit * pencil.K1[:r, :r]
-    second = -(limit**2) * pencil.K1[:r, r:] @ np.linalg.pinv(pencil.K0[r:, r:], hermitian=True) @ pencil.K1[r:, :r]
-    significant = np.abs(first).max() > ZERO * np.abs(limit * pencil.K1).max()
-    return float(np.linalg.eigvals(first if significant else second).real.min())
 
 
 def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:

@@ -8,7 +8,7 @@ import scipy.linalg
 from beal.discretise.operators import Operators
 from beal.errors import ModelError
 from beal.stability.pencil import Array, ComplexArray, Pencil, pencil
-from beal.stability.ridge import ZERO
+from beal.stability.zero_roots import ZERO
 
 
 @dataclass(frozen=True)

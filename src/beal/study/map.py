@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
 from contextlib import nullcontext
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[int, int], None]
-SERIAL = 256  # points up to which starting processes costs more than it saves
+SERIAL = 512  # points up to which starting processes costs more than it saves
 
 
 def stability_map(
@@ -146,7 +147,13 @@ def _executor(workers: int | None, points: int) -> "ProcessPoolExecutor | nullco
     if workers == 1 or points <= SERIAL:
         return nullcontext()
     fork = "fork" in multiprocessing.get_all_start_methods()  # a script need not guard its main module
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("fork" if fork else None))
+    context = multiprocessing.get_context("fork" if fork else None)
+    return ProcessPoolExecutor(workers, mp_context=context, initializer=_ignore_interrupt)
+
+
+def _ignore_interrupt() -> None:
+    """Ctrl-C reaches the whole process group; only the parent, which keeps the store, acts on it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _run(

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from beal.errors import ModelError
 from beal.study.study import Study
 
-BLOCK = 64  # points of a block at least, along the last axes
+BLOCK = 256  # points of a block at least, along the last axes
 STATUS = ("pending", "solved", "not_converged", "invalid")
 KINDS = ("stable", "flutter", "divergence")
 VARIABLES: dict[str, tuple[str, Any]] = {

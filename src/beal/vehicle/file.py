@@ -33,21 +33,7 @@ def load(path: str | os.PathLike[str]) -> Vehicle:
     ModelError
         With every problem in the file, each with its path, or the reason why the file cannot be read.
     """
-    source = str(path)
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise ModelError(f"cannot be read: {error.strerror or error}", source) from None
-    except ValueError as error:
-        raise ModelError(f"is not a file name: {error}", repr(source)) from None
-    if len(content) > LARGEST_FILE:
-        raise ModelError(f"is larger than {LARGEST_FILE // 10**6} MB: not a model file", source)
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ModelError(f"is not text in UTF-8 (byte {error.start} is wrong): not a model file", source) from None
-    return loads(text, source)
+    return _vehicle(read_toml(path), str(path))
 
 
 def loads(text: str, source: str = "model") -> Vehicle:
@@ -74,7 +60,45 @@ def loads(text: str, source: str = "model") -> Vehicle:
     >>> loads("[[stage]]\\nlength = '2 km'\\nmass_per_length = 2.0\\nbending_stiffness = 3.0").length
     2000.0
     """
-    data = _parsed(text, source)
+    return _vehicle(_parsed(text, source), source)
+
+
+def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Read the content of any TOML file, not checked yet.
+
+    Parameters
+    ----------
+    path : str or path-like
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ModelError
+        With the reason why the file cannot be read.
+    """
+    source = str(path)
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise ModelError(f"cannot be read: {error.strerror or error}", source) from None
+    except ValueError as error:
+        raise ModelError(f"is not a file name: {error}", repr(source)) from None
+    if len(content) > LARGEST_FILE:
+        raise ModelError(f"is larger than {LARGEST_FILE // 10**6} MB: expected a text file in TOML", source)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ModelError(
+            f"is not text in UTF-8 (byte {error.start} is wrong): expected a text file in TOML", source
+        ) from None
+    return _parsed(text, source)
+
+
+def _vehicle(data: dict[str, Any], source: str) -> Vehicle:
     if not data:
         raise ModelError("is empty, expected at least one [[stage]]", source)
     fields = {name: field.alias or name for name, field in Vehicle.model_fields.items()}

@@ -60,7 +60,7 @@ class Joint(Part):
 
 
 class PointMass(Part):
-    """A rigid lump at a station. At a joint it sits on the aft face, at the tail's end on the last stage.
+    """A rigid lump at a station; at a joint it sits on the aft face.
 
     Parameters
     ----------

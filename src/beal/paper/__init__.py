@@ -1,0 +1,1 @@
+"""Irani & Kavianipour (2009), regenerated: figures, claims tested one by one, and what is wrong in print."""

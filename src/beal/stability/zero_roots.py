@@ -1,0 +1,49 @@
+"""Motions that strain nothing, and where the first thrust drives them: rigid-body motions and mechanisms.
+
+K(P) with the strained coordinates eliminated is P K1_zz - P^2 K1_ze K0_ee^-1 K1_ez + ... on the strainless ones.
+"""
+
+from typing import Literal
+
+import numpy as np
+
+from beal.stability.pencil import ComplexArray, Pencil
+
+ZERO = 1e-6  # |W| below this share of the pencil's shift is zero to rounding
+STRAINLESS = 1e-9  # share of strain energy below which a coordinate of a reduced pencil strains nothing
+FIRST = 1e-4  # share of the thrust searched at which the motions are looked at
+ROUNDING = 1e-12
+
+
+def rigid_body_root(pencil: Pencil, limit: float) -> Literal["", "neutral", "tumbling"]:
+    """Where the strainless root goes under thrust: it stays zero, or turns negative and the vehicle tumbles."""
+    gained = _gained(pencil, limit)
+    if not len(gained):
+        return ""
+    nearest = [np.abs(pencil.roots(share * limit)).min() for share in (0.0013, 0.0029)]
+    if max(nearest) < ZERO * pencil.shift:
+        return "neutral"
+    return "tumbling" if pencil.rigid and gained.real.min() < 0 else ""
+
+
+def mechanism(pencil: Pencil, limit: float) -> Literal["flutter", "divergence"] | None:
+    """How a mechanism, a joint without stiffness, gives way under any thrust at all, if it does."""
+    gained = _gained(pencil, limit)
+    if len(gained) <= pencil.rigid:
+        return None
+    if np.any(gained.imag != 0):
+        return "flutter"
+    tumbling = rigid_body_root(pencil, limit) == "tumbling"
+    return "divergence" if np.sum(gained.real < 0) > tumbling else None
+
+
+def _gained(pencil: Pencil, limit: float) -> ComplexArray:
+    """Stiffnesses that the strainless motions of a reduced pencil gain from the first thrust."""
+    count = int(np.sum(np.diag(pencil.K0) < STRAINLESS))  # the leading coordinates
+    K1 = FIRST * limit * pencil.K1
+    along, back, forth = K1[:count, :count], K1[:count, count:], K1[count:, :count]
+    through = back @ (forth / np.diag(pencil.K0)[count:, None])
+    gained = np.linalg.eigvals(along - through).astype(complex)
+    significant = np.abs(gained) > ROUNDING * np.abs(K1).max() ** 2  # the second order counts
+    nearly_real = np.abs(gained.imag) < np.sqrt(ROUNDING) * np.abs(gained)
+    return np.where(significant, np.where(nearly_real, gained.real, gained), 0.0)
