@@ -30,7 +30,7 @@ def beal_here(tmp_path, monkeypatch, capfd):
 
     def run(*arguments):
         monkeypatch.chdir(tmp_path)
-        monkeypatch.setattr(sys, "argv", ["beal", *arguments])
+        monkeypatch.setattr(sys, "argv", ["beal", *map(str, arguments)])
         with pytest.raises(SystemExit) as end:
             main()
         return subprocess.CompletedProcess(arguments, end.value.code, *capfd.readouterr())
@@ -39,11 +39,11 @@ def beal_here(tmp_path, monkeypatch, capfd):
 
 
 @pytest.fixture
-def result_of(beal, strict):
+def result_of(beal_here, strict):
     """Runs the command with --json and reads its result: one object, nothing else, strict JSON."""
 
     def run(*arguments):
-        done = beal(*arguments, "--json")
+        done = beal_here(*arguments, "--json")
         assert (done.returncode, done.stderr) == (0, "")
         return strict(done.stdout)
 

@@ -95,7 +95,7 @@ def test_a_paper_formulation_is_refused_with_the_reason_where_it_does_not_apply(
     [
         (("modes", "--count", "0"), "--count: must lie between 1 and 40, found 0"),
         (("modes", "--count", "1000000000"), "--count: must lie between 1 and 40"),
-        (("modes", "--count", "many"), "'many' is not a valid"),
+        (("modes", "--count", "many"), "Invalid value for '--count'"),
         (("modes", "--thrust", "nan"), "thrust: must be a finite number, found nan"),
         (("modes", "--thrust", "1", "--loaded"), "--thrust: is given beside --loaded"),
         (("modes", "--loaded"), "thrust.nominal: is needed by --loaded"),
@@ -114,7 +114,10 @@ def test_a_paper_formulation_is_refused_with_the_reason_where_it_does_not_apply(
         (("response", "--duration", "1"), "initial: nothing moves the vehicle"),
         (("response", "--duration", "1", "--initial", "jump"), "expected mode:NUMBER:AMPLITUDE or release"),
         (("response", "--duration", "1", "--initial", "mode:first:1"), "with numbers, found 'mode:first:1'"),
-        (("response", "--duration", "1", "--thrust", "1", "--initial", "mode:1:nan"), "initial: amplitude must be finite"),
+        (
+            ("response", "--duration", "1", "--thrust", "1", "--initial", "mode:1:nan"),
+            "initial: amplitude must be finite",
+        ),
         (("response", "--duration", "1", "--initial", "mode:1:1"), "thrust: give one, or set thrust.nominal"),
     ],
 )
@@ -164,6 +167,42 @@ def test_an_example_that_cannot_be_written_is_refused(beal):
 def test_a_failed_run_leaves_no_output(beal, written, tmp_path):
     refusal(beal("curve", written(GOOD), "--to", "-1", "-o", "curve.csv"))
     assert [path.name for path in tmp_path.iterdir()] == ["model.toml"]
+
+
+STUDY = 'model = "model.toml"\n[grid]\n"joint[0].rotational_stiffness" = {values = [1.0, 10.0]}\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("", ["study.toml"]),
+        (STUDY.replace("model.toml", "nowhere.toml"), ["nowhere.toml", "cannot be read"]),
+        (STUDY.replace("joint[0]", "joint[3]"), ["joint[3].rotational_stiffness", "1 joint"]),
+        (STUDY.replace("rotational_stiffness", "colour"), ["joint[0].colour", "not a quantity"]),
+        (STUDY.replace("[1.0, 10.0]", "[]"), ["joint[0].rotational_stiffness", "at least one value"]),
+        (STUDY.replace("values = [1.0, 10.0]", "from = 1"), ["joint[0].rotational_stiffness", "from, to and points"]),
+        (STUDY + '[solve]\nformulation = "wrong"\n', ["solve.formulation", "as-printed"]),
+        (STUDY + "[solve]\ncolour = 1\n", ["solve.colour", "unknown key"]),
+    ],
+)
+def test_a_wrong_study_is_refused(beal_here, written, tmp_path, text, expected):
+    written(TWO)
+    message = refusal(beal_here("map", written(text, "study.toml"), "-o", "map.zarr"))
+    assert [part for part in expected if part not in message] == []
+    assert not (tmp_path / "map.zarr").exists()
+
+
+@pytest.mark.parametrize("output", ["model.toml", "nowhere/map.zarr", "/dev/null/map.zarr", "/proc/map.zarr", "."])
+def test_a_map_that_cannot_be_written_is_refused(beal_here, written, output):
+    written(TWO)
+    message = refusal(beal_here("map", written(STUDY, "study.toml"), "-o", output))
+    assert f"{output}: " in message
+
+
+def test_a_scheduler_is_refused(beal_here, written):
+    written(TWO)
+    message = refusal(beal_here("map", written(STUDY, "study.toml"), "-o", "map.zarr", "--scheduler", "here:1"))
+    assert "--scheduler: clusters are not supported" in message
 
 
 @pytest.mark.parametrize("output", ["model.toml", "nowhere/out", "/dev/null/out", "/proc/out"])

@@ -1,15 +1,18 @@
 """Every command on good input: what it says, in words and as JSON."""
 
 import csv
+import math
 import re
 import subprocess
 import sys
 from importlib.metadata import version
 from importlib.resources import files
 
+import numpy as np
 import pytest
+import xarray
 
-from beal.cli.output import digits, new_file, quantity
+from beal.cli.output import digits, emit, new_file, quantity
 from beal.discretise import FORMULATIONS
 from beal.errors import ModelError
 from beal.vehicle import Thrust, catalog
@@ -40,8 +43,8 @@ def tsto(written):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help_with_an_example(beal, command):
-    done = beal(command, "--help")
+def test_every_command_has_help_with_an_example(beal_here, command):
+    done = beal_here(command, "--help")
     assert done.returncode == 0
     assert f"beal {command} " in done.stdout
     assert "--json" in done.stdout
@@ -74,6 +77,11 @@ def test_check_gives_the_resolved_model(result_of, tsto):
     assert resolved["nondimensional"]["nominal_thrust"] == 90.0
 
 
+def test_a_title_that_the_terminal_cannot_show_is_no_error(beal, written, monkeypatch):
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+    assert "Pfl\\xfcger's column: flutters" in beal("critical", written(example("pflueger"))).stdout
+
+
 def test_check_shows_units_in_si_alone(beal, written, tsto):
     assert "length: 20 m\n" in beal("check", written(SI_BEAM)).stdout
     assert "length: 1\n" in beal("check", tsto).stdout
@@ -102,6 +110,13 @@ def test_high_modes_are_converged(result_of, written):
     errors = [abs(found["angular_frequency"][n - 1] - w) for n, w in zip(range(12, 41), exact, strict=True)]
     assert max(errors) < 1e-5
     assert all(e < 1e-5 for e in found["error_estimate"])
+
+
+def test_frequencies_that_do_not_converge_are_not_given(beal_here, written, monkeypatch):
+    monkeypatch.setattr("beal.cli.modes.ORDERS", (10, 14))
+    done = beal_here("modes", written(example("beal")), "--count", 8, "--json")
+    assert (done.returncode, done.stdout) == (3, "")
+    assert "8 frequencies do not converge; ask for fewer" in done.stderr
 
 
 def test_loaded_modes_are_those_at_the_nominal_thrust(result_of, tsto):
@@ -146,6 +161,12 @@ def test_all_critical_thrusts_come_in_order(result_of, tsto):
     assert [event["unstable"] for event in events] == [1, 2]
     assert {event["change"] for event in events} == {"destabilises"}
     assert events[0]["thrust"] == pytest.approx(106.437231, abs=1e-6)
+
+
+def test_standard_output_holds_one_json_object_and_nothing_else(beal, strict, tsto):
+    done = beal("critical", tsto, "--json")
+    assert (done.returncode, done.stderr, done.stdout.count("\n")) == (0, "", 1)
+    assert strict(done.stdout)["kind"] == "flutter"
 
 
 def test_the_complete_method_agrees(result_of, tsto):
@@ -227,6 +248,14 @@ def test_response_gives_the_histories_of_each_sensor(result_of, tsto):
     assert found["growth_rate"] == pytest.approx(0, abs=1e-6)
 
 
+def test_a_motion_in_the_first_mode_is_back_after_its_period(result_of, written):
+    model = written(example("beal") + '[[sensor]]\nname = "nose"\nstation = 0.0\n')
+    period = 2 * math.pi / 22.3732854
+    arguments = ("response", model, "--duration", period, "--thrust", 0, "--method", "exact")
+    nose = result_of(*arguments, "--initial", "mode:1:0.01")["sensors"]["nose"]["displacement"]
+    assert (nose[0], nose[-1], min(nose)) == pytest.approx((0.01, 0.01, -0.01), rel=1e-6)
+
+
 def test_both_methods_give_the_same_motion(result_of, tsto):
     arguments = ("response", tsto, "--duration", 0.5, "--step", 0.0005, "--initial", "release:0.01:1.0")
     newmark, exact = (
@@ -240,6 +269,17 @@ def test_response_above_the_critical_thrust_grows(beal, tsto):
     done = beal("response", tsto, "--duration", 1, "--thrust", 120, "--method", "exact", "-o", "histories.csv")
     assert "unstable, its motion grows as exp(13.09 t)" in done.stdout
     assert done.stderr == "beal: histories written to histories.csv\n"
+
+
+def test_map_counts_what_it_wrote(result_of, written, tsto, tmp_path):
+    study = f'model = "{tsto}"\n[grid]\n"stage.split" = {{values = [0.2, 0.6]}}\n'
+    study += '"joint[0].rotational_stiffness" = {from = 1, to = 1e4, points = 2, spacing = "log"}\n'
+    counted = result_of("map", written(study, "study.toml"), "-o", "map.zarr")
+    with xarray.open_zarr(tmp_path / "map.zarr", consolidated=False) as found:
+        assert dict(found.sizes) == {"stage.split": 2, "joint[0].rotational_stiffness": 2}
+        assert (counted["lowest"], counted["highest"]) == (found.critical_thrust.min(), found.critical_thrust.max())
+    assert (counted["points"], counted["status"]["solved"]) == (4, 4)
+    assert counted["kind"] == {"stable": 0, "flutter": 2, "divergence": 2}
 
 
 @pytest.mark.parametrize("name", ["beck", "beal", "pflueger", "tsto"])
@@ -284,6 +324,19 @@ def test_a_file_that_is_not_finished_leaves_the_old_one(tmp_path):
     file.write("new")
     writing.__exit__(KeyboardInterrupt, KeyboardInterrupt(), None)
     assert [(path.name, path.read_text(encoding="utf-8")) for path in tmp_path.iterdir()] == [("table.csv", "old")]
+
+
+def test_a_link_is_followed(tmp_path):
+    (tmp_path / "link.csv").symlink_to(tmp_path / "table.csv")
+    with new_file(tmp_path / "link.csv") as file:
+        file.write("new")
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "table.csv").read_text(encoding="utf-8") == "new"
+
+
+def test_what_is_not_finite_is_null_in_json(capsys, strict):
+    emit({"list": (1.0, math.inf), "array": np.array([math.nan, 2.0]), "number": np.float64(-math.inf), "none": None})
+    assert strict(capsys.readouterr().out) == {"list": [1, None], "array": [None, 2], "number": None, "none": None}
 
 
 def test_a_device_is_not_replaced_by_a_file(tmp_path):

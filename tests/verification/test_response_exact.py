@@ -39,18 +39,14 @@ def sine_response(t):
 
 def table_response(t):
     slopes = np.concatenate([[0.0], np.diff(TABLE.value) / np.diff(TABLE.time), [0.0]])
-    return sum(
-        kink * ramp_response(t, start) for kink, start in zip(np.diff(slopes), TABLE.time, strict=True)
-    )
+    return sum(kink * ramp_response(t, start) for kink, start in zip(np.diff(slopes), TABLE.time, strict=True))
 
 
 CLOSED_FORMS = [
     pytest.param(SINE, sine_response, id="sine"),
     pytest.param(
         RESONANT,
-        lambda t: (
-            RESONANT.amplitude / (2 * MASS * OMEGA**2) * (np.sin(OMEGA * t) - OMEGA * t * np.cos(OMEGA * t))
-        ),
+        lambda t: RESONANT.amplitude / (2 * MASS * OMEGA**2) * (np.sin(OMEGA * t) - OMEGA * t * np.cos(OMEGA * t)),
         id="resonant sine",
     ),
     pytest.param(STEP, lambda t: 1.5 * step_response(t, 0.737), id="step"),
@@ -145,15 +141,11 @@ def test_force_of_the_tail_flies_a_free_vehicle_away():
 def test_follower_thrust_pushes_the_centre_of_mass_against_the_slope_of_the_tail():
     thrust = 60.0
     beam = uniform_beam(sensors=[Sensor(name=f"s{i}", station=x) for i, x in enumerate([*GAUSS, 1.0])])
-    motion = response(
-        beam, duration=0.5, thrust=thrust, step=0.001, method="exact", initial=ModeShape(1, 0.01)
-    )
+    motion = response(beam, duration=0.5, thrust=thrust, step=0.001, method="exact", initial=ModeShape(1, 0.01))
     centre = WEIGHTS @ motion.displacement[:-1]
     acceleration = np.diff(centre, 2) / motion.step**2
     largest = abs(acceleration).max()
-    np.testing.assert_allclose(
-        acceleration, -thrust * motion.slope[-1, 1:-1], atol=1e-4 * largest
-    )  # h^2 w^2/12
+    np.testing.assert_allclose(acceleration, -thrust * motion.slope[-1, 1:-1], atol=1e-4 * largest)  # h^2 w^2/12
 
 
 def test_free_vibration_of_a_uniform_beam_follows_its_analytic_mode():
@@ -171,9 +163,7 @@ def test_free_vibration_of_a_uniform_beam_follows_its_analytic_mode():
         method="exact",
         initial=ModeShape(2, amplitude=0.05, at="nose"),
     )
-    np.testing.assert_allclose(
-        motion.displacement[0], 0.05 * shape * np.cos(root**2 * motion.time), atol=1e-10
-    )
+    np.testing.assert_allclose(motion.displacement[0], 0.05 * shape * np.cos(root**2 * motion.time), atol=1e-10)
 
 
 def test_newmark_with_constant_mean_acceleration_keeps_the_energy_of_free_vibration():
@@ -217,9 +207,7 @@ def test_paper_vehicle_flutters_above_its_critical_thrust_at_the_rate_of_its_eig
     vehicle = discretise(paper_vehicle())
     roots = np.emath.sqrt(-np.linalg.eigvals(np.linalg.solve(vehicle.M, vehicle.stiffness(128.0))))
     growth = max(abs(roots.real))
-    motion = response(
-        vehicle, duration=2.0, thrust=128.0, method=method, initial=Release(0.01), rigid_body=rigid_body
-    )
+    motion = response(vehicle, duration=2.0, thrust=128.0, method=method, initial=Release(0.01), rigid_body=rigid_body)
     assert growth_rate(motion, "imu") == pytest.approx(growth, rel=1e-3)
 
 

@@ -32,8 +32,8 @@ def printed(text: str) -> object:
         (catalog.pflueger(1.0), "objective", "16.212129", "6.27450", "flutter", (1, 2)),
         (catalog.tsto(0.6, 5e3, 5e3), "objective", "106.437231", "22.8073", "flutter", (1, 2)),
         (catalog.tsto(0.8, 1e4, 1e4), "objective", "108.590391", "22.7822", "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3), "converged", "109.34644", "23.0129", "flutter", (1, 2)),
-        (catalog.tsto(0.8, 200, 600), "converged", "107.78176", "26.4203", "flutter", (1, 2)),
+        (catalog.tsto(0.6, 5e3, 5e3), "converged", "109.34644", "23.01319", "flutter", (1, 2)),
+        (catalog.tsto(0.8, 200, 600), "converged", "107.78176", "26.42055", "flutter", (1, 2)),
         (catalog.tsto(0.2, 1, 100), "converged", "44.92481", "0", "divergence", (1, 1)),
         (catalog.tsto(0.6, 5e3, 5e3), "corrected-ritz", "109.528403", None, "flutter", (1, 2)),
         (catalog.tsto(0.8, 1e4, 1e4), "corrected-ritz", "116.786285", None, "flutter", (1, 2)),
@@ -43,7 +43,7 @@ def printed(text: str) -> object:
         # the text: a soft rotational spring, slow convergence of modes, the couple of the axial force
         (catalog.tsto(0.6, 1, 1e4), "corrected-ritz", "13.941080", None, "divergence", (1, 1)),
         (catalog.tsto(0.6, 1, 1e4), "converged", "13.898275", "0", "divergence", (1, 1)),
-        (catalog.tsto(0.8, 1e4, 1e4), "converged", "109.62206", None, "flutter", (1, 2)),
+        (catalog.tsto(0.8, 1e4, 1e4), "converged", "109.622066", None, "flutter", (1, 2)),
         (catalog.tsto(0.8, 200, 600), "corrected-ritz", "108.204074", None, "flutter", (1, 2)),
         (catalog.tsto(0.6, 5e3, 5e3, "mean"), "objective", "106.437231", None, "flutter", (1, 2)),
         (catalog.tsto(0.6, 5e3, 5e3, "forward"), "objective", "106.432496", None, "flutter", (1, 2)),
@@ -57,6 +57,17 @@ def test_critical_thrust_is_the_reference_value(vehicle, formulation, thrust, om
     assert (found.kind, found.modes) == (kind, modes)
     assert found.critical_thrust == printed(thrust)
     assert omega is None or found.angular_frequency == printed(omega)
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "omega"), [(catalog.tsto(0.6, 5e3, 5e3), 23.01319), (catalog.tsto(0.8, 200, 600), 26.42055)]
+)
+def test_frequency_at_coalescence_is_the_limit_of_the_mean_of_the_pair(vehicle, omega):
+    # Each frequency alone is off by the square root of the distance to the critical thrust, their mean W by itself.
+    thrust = critical_thrust(vehicle, formulation="converged").critical_thrust
+    pair = spectrum(discretise(vehicle, "converged", order=16), thrust * (1 - 1e-7), 2).W.real
+    assert pair.mean() ** 0.5 == pytest.approx(omega, rel=0, abs=1e-5)
+    assert pair[1] ** 0.5 - pair[0] ** 0.5 > 0.01
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@
 
 import sys
 import warnings
+from io import TextIOWrapper
 from typing import TextIO
 
 from beal.errors import ConvergenceError, ModelError
@@ -15,6 +16,8 @@ BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 2, 3, 130
 def main() -> None:
     """Run the command line and turn what beal raises into one message and an exit code."""
     warnings.showwarning = _warn
+    if isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a title that the terminal cannot show is no error
     try:
         from beal.cli.app import app  # inside, so that an early Ctrl-C leaves no traceback either
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def map_study(
-    study: Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)],
+    study: Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (TOML).", show_default=False)],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="OUT.zarr", help="Result.", show_default=False)],
     resume: Annotated[bool, typer.Option("--resume", help="Go on with what an earlier run left.")] = False,
     workers: Annotated[int | None, typer.Option("--workers", metavar="N", help="Number of processes.", min=1)] = None,
@@ -32,8 +32,8 @@ def map_study(
 
     task = load_study(study)
     try:
-        with _progress("points") as progress:
-            found = run_study(task, output, resume=resume, workers=workers, progress=progress)
+        with _progress() as progress:
+            found = run_study(task, output, resume, workers, lambda done, total: progress("points", done, total))
     except KeyboardInterrupt:
         note(f"interrupted; beal map {study} -o {output} --resume goes on with it")
         raise
@@ -72,12 +72,14 @@ def reproduce(
 ) -> None:
     """Regenerate Irani & Kavianipour (2009): every figure, its data, every claim, and a report."""
     check_folder(output)
-    output.mkdir(exist_ok=True)
-    from beal.paper.reproduce import reproduce as run
-
-    with _progress("steps") as progress:
-        run(output, points=points, progress=progress)
-    report = output / "report.html"
+    try:
+        from beal.paper.reproduce import reproduce as run
+    except ModuleNotFoundError as error:
+        if error.name != "matplotlib":
+            raise
+        raise ModelError("reproduce: needs matplotlib, which is not installed; install beal[plot]") from None
+    with _progress() as progress:
+        report = run(output, points=points, progress=progress)
     if as_json:
         emit({"directory": str(output), "report": str(report), "claims": str(output / "claims.json")})
     else:
@@ -85,12 +87,13 @@ def reproduce(
 
 
 @contextmanager
-def _progress(what: str) -> Iterator[Callable[[int, int], None]]:
-    """A bar on standard error that is moved by (done, total)."""
+def _progress() -> Iterator[Callable[[str, int, int], None]]:
+    """A bar on standard error that is moved by (text, done, total)."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("", total=None)
+        yield lambda text, done, total: bar.update(task, description=text, completed=done, total=total)

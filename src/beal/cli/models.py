@@ -76,7 +76,7 @@ def _titled(name: str, units: dict[str, str]) -> str:
 
 
 def example(
-    name: Annotated[str, typer.Argument(help=f"{', '.join(EXAMPLES)}.", show_default=False)],
+    name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(EXAMPLES)}.", show_default=False)],
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write it there.")] = None,
     as_json: AsJson = False,
 ) -> None:

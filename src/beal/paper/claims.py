@@ -44,6 +44,13 @@ class Part:
     borne_out: int
     cases: int
 
+    @property
+    def count(self) -> str:
+        """``yes`` or ``no`` for one case, ``k of n`` for more."""
+        if self.cases == 1:
+            return "yes" if self.borne_out else "no"
+        return f"{self.borne_out} of {self.cases}"
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -79,8 +86,8 @@ class Verdict:
     @property
     def evidence(self) -> str:
         """The counts of the parts and the note, as one text."""
-        counts = "; ".join(f"{part.statement}: {_count(part)}" for part in self.parts)
-        return f"{counts}. {self.note}".strip()
+        counts = "; ".join(f"{part.statement}: {part.count}" for part in self.parts)
+        return f"{counts[0].upper()}{counts[1:]}. {self.note}".strip()
 
     def record(self) -> dict[str, Any]:
         """The entry of ``claims.json``."""
@@ -94,12 +101,6 @@ class Verdict:
             "numbers": {**self.numbers, "parts": parts},
             "grid": self.grid,
         }
-
-
-def _count(part: Part) -> str:
-    if part.cases == 1:
-        return "yes" if part.borne_out else "no"
-    return f"{part.borne_out} of {part.cases}"
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ class _Map:
 
     @property
     def grid(self) -> str:
-        size = f"{len(self.k_r)} × {len(self.k_s)} points"
+        size = f"{len(self.k_r)} by {len(self.k_s)} points"
         return f"{size}, k_r {self.k_r[0]:g} to {self.k_r[-1]:g}, k_s {self.k_s[0]:g} to {self.k_s[-1]:g}, logarithmic"
 
 
@@ -147,7 +148,7 @@ def c1(charts: Maps, formulation: Formulation) -> Verdict:
     """L1 = 0.2: flutter of modes 1 and 2 for every joint."""
     chart = _map(charts, 0.2, formulation)
     diverges = chart.kind == DIVERGENCE
-    parts = (_part("first instability is flutter 1–2", chart.flutter(1, 2)[chart.solved]),)
+    parts = (_part("first instability is flutter 1-2", chart.flutter(1, 2)[chart.solved]),)
     note = ""
     if diverges.any():
         softest = chart.k_r[diverges.any(axis=1)].max()
@@ -166,9 +167,9 @@ def c2(charts: Maps, formulation: Formulation) -> Verdict:
     exchanged = ~soft & ~stiff
     parts = (
         _part("first instability is flutter", flutters[chart.solved]),
-        _part("modes 1–2 are more than half of the flutter points", first.sum() > flutters.sum() / 2),
+        _part("modes 1-2 are more than half of the flutter points", first.sum() > flutters.sum() / 2),
         _part(
-            f"2–3 has k_r < {LOW_ROTATIONAL:g} and k_s > {HIGH_SHEAR:g}",
+            f"2-3 has k_r < {LOW_ROTATIONAL:g} and k_s > {HIGH_SHEAR:g}",
             (soft & stiff)[second] if second.any() else False,
         ),
     )
@@ -177,16 +178,16 @@ def c2(charts: Maps, formulation: Formulation) -> Verdict:
         rows, columns = np.nonzero(second)
         where = (
             f"It lies at k_r from {chart.k_r[rows].min():.3g} to {chart.k_r[rows].max():.3g} and k_s from "
-            f"{chart.k_s[columns].min():.3g} to {chart.k_s[columns].max():.3g}; with the words low and high exchanged, "
-            f"{int(exchanged[second].sum())} of {int(second.sum())} points agree"
+            f"{chart.k_s[columns].min():.3g} to {chart.k_s[columns].max():.3g}; with the words low and high "
+            f"exchanged, {int(exchanged[second].sum())} of {int(second.sum())} points agree"
         )
-    note = f"Flutter 2–3 at {int(second.sum())} points. {where}."
+    note = f"Flutter 2-3 at {int(second.sum())} points. {where}."
     numbers = {
         "flutter_12_points": int(first.sum()),
         "flutter_23_points": int(second.sum()),
         "flutter_23_points_at_high_k_r_and_low_k_s": int((exchanged & second).sum()),
     }
-    claim = "L₁ = 0.4: flutter for every joint, mostly 1–2, and 2–3 only where k_r is low and k_s high"
+    claim = "L₁ = 0.4: flutter for every joint, mostly 1-2, and 2-3 only where k_r is low and k_s high"
     return Verdict("C2", claim, formulation, parts, note, numbers, chart.grid)
 
 
@@ -201,7 +202,7 @@ def c3(charts: Maps, formulation: Formulation) -> Verdict:
     lowest = np.where(flutters, chart.thrust, np.inf).min(axis=0)[both]
     parts = (
         _part("rows of constant k_s that go from divergence to flutter once as k_r rises", once),
-        _part("flutter is of modes 1–2", chart.flutter(1, 2)[flutters]),
+        _part("flutter is of modes 1-2", chart.flutter(1, 2)[flutters]),
         _part(
             "rows in which every divergence load is below every flutter load", highest < lowest if both.any() else False
         ),
@@ -215,7 +216,7 @@ def c3(charts: Maps, formulation: Formulation) -> Verdict:
         border = chart.k_r[diverges.cumsum(axis=0).argmax(axis=0)[both]]
         note = f"The last diverging point has k_r between {border.min():.3g} and {border.max():.3g}."
     claim = (
-        "L₁ = 0.6: divergence for small k_r, flutter 1–2 for higher; at constant k_s divergence comes at the lower load"
+        "L₁ = 0.6: divergence for small k_r, flutter 1-2 for higher; at constant k_s divergence comes at the lower load"
     )
     return Verdict("C3", claim, formulation, parts, note, numbers, chart.grid)
 
@@ -240,15 +241,16 @@ def c5(charts: Maps, formulation: Formulation) -> Verdict:
     found = critical((0.8, 200.0, 600.0), formulation)
     counts = {
         "divergence": int((chart.kind == DIVERGENCE).sum()),
-        "flutter 1–2": int(chart.flutter(1, 2).sum()),
-        "flutter 3–4": int(chart.flutter(3, 4).sum()),
+        "flutter 1-2": int(chart.flutter(1, 2).sum()),
+        "flutter 3-4": int(chart.flutter(3, 4).sum()),
     }
     here = found.kind == "flutter" and found.modes == (3, 4)
-    parts = (*(_part(f"{name} occurs", count > 0) for name, count in counts.items()), _part("(200, 600) is 3–4", here))
+    parts = (*(_part(f"{name} occurs", count > 0) for name, count in counts.items()), _part("(200, 600) is 3-4", here))
     listed = ", ".join(f"{name} at {count}" for name, count in counts.items())
-    note = f"Points: {listed} of {chart.kind.size}. (200, 600): {_named(found.kind, found.modes)} at {found.critical_thrust:.3f}."
+    event = f"{_named(found.kind, found.modes)} at {found.critical_thrust:.3f}"
+    note = f"Points: {listed} of {chart.kind.size}. (200, 600): {event}."
     numbers = {"points": counts, "critical_thrust_200_600": found.critical_thrust, "modes_200_600": found.modes}
-    claim = "L₁ = 0.8: divergence, flutter 1–2 and flutter 3–4 all occur; k_r = 200, k_s = 600 is 3–4"
+    claim = "L₁ = 0.8: divergence, flutter 1-2 and flutter 3-4 all occur; k_r = 200, k_s = 600 is 3-4"
     return Verdict("C5", claim, formulation, parts, note, numbers, chart.grid + "; and the one point")
 
 
@@ -309,15 +311,16 @@ def c8(charts: Maps, formulation: Formulation) -> Verdict:
         ),
     )
     note = (
-        f"P = 90: amplitude of the last quarter over the first {below.amplitude_ratio:.4f}. P = 128: {above.turning_points} turning "
-        f"points in the second half, growth rate {above.rate:.3f} (root {above.eigenvalue_rate:.3f}). k_r = {DIVERGING[1]:g}, "
-        f"k_s = {DIVERGING[2]:g}, P = {fold.thrust:.3f}: {fold.turning_points} turning points, {fold.rate:.3f} (root {fold.eigenvalue_rate:.3f})."
+        f"P = 90: amplitude of the last quarter over the first {below.amplitude_ratio:.4f}. P = 128: "
+        f"{above.turning_points} turning points in the second half, growth rate {above.rate:.3f} (root "
+        f"{above.eigenvalue_rate:.3f}). k_r = {DIVERGING[1]:g}, k_s = {DIVERGING[2]:g}, P = {fold.thrust:.3f}: "
+        f"{fold.turning_points} turning points, {fold.rate:.3f} (root {fold.eigenvalue_rate:.3f})."
     )
     numbers = {"below": vars(below), "above": vars(above), "divergence": vars(fold)}
     claim = "Below P_cr the amplitude stays constant; above, it grows periodically in flutter and at once in divergence"
     grid = (
-        f"{RESPONSE_GRID}, and L₁ = 0.6, k_r = 3, k_s = 10⁴ at 1.1 P_cr; elastic motion of the IMU from the first free mode at "
-        f"rest; durations {BOUNDED_DURATION:g} at P = 90, {GROWTH_DURATION:g} above; exact solution"
+        f"{RESPONSE_GRID}, and L₁ = 0.6, k_r = 3, k_s = 10⁴ at 1.1 P_cr; elastic motion of the IMU from the first "
+        f"free mode at rest; durations {BOUNDED_DURATION:g} at P = 90, {GROWTH_DURATION:g} above; exact solution"
     )
     return Verdict("C8", claim, formulation, parts, note, numbers, grid)
 
@@ -337,9 +340,9 @@ def c9(charts: Maps, formulation: Formulation) -> Verdict:
     )
     lowest = int(np.argmin(sweep[small]))
     note = (
-        f"Amplitude for F = 0.01 from rest: {1e6 * sweep[small][0]:.1f}·10⁻⁶ without thrust, {1e6 * at[low]:.1f} at 50, "
-        f"{1e6 * sweep[small][lowest]:.1f} at {FORCED_SWEEP[lowest]:g}, {1e6 * at[high]:.1f} at 100; twice the force gives "
-        f"{sweep[large][0] / sweep[small][0]:.3f} times the amplitude."
+        f"Amplitude for F = 0.01 from rest: {1e6 * sweep[small][0]:.1f}·10⁻⁶ without thrust, {1e6 * at[low]:.1f} at "
+        f"50, {1e6 * sweep[small][lowest]:.1f} at {FORCED_SWEEP[lowest]:g}, {1e6 * at[high]:.1f} at 100; twice the "
+        f"force gives {sweep[large][0] / sweep[small][0]:.3f} times the amplitude."
     )
     numbers = {
         "thrust": list(FORCED_SWEEP),
@@ -347,7 +350,8 @@ def c9(charts: Maps, formulation: Formulation) -> Verdict:
         "amplitude_F_0.02": sweep[large].tolist(),
         "with_initial_condition": {f"{P:g}": value for P, value in free.items()},
     }
-    grid = f"{RESPONSE_GRID}; P = 0, 5, ..., 105; F = 0.01 and 0.02 sin 2t at the tail; largest elastic |y| over {FORCED_DURATION:g}"
+    amplitude = f"largest elastic |y| over {FORCED_DURATION:g}"
+    grid = f"{RESPONSE_GRID}; P = 0, 5, ..., 105; F = 0.01 and 0.02 sin 2t at the tail; {amplitude}"
     return Verdict("C9", "The amplitude of the IMU grows with P and with F", formulation, parts, note, numbers, grid)
 
 
@@ -371,7 +375,7 @@ def judge(charts: Maps, formulation: Formulation) -> list[Verdict]:
 
 def _named(kind: str, modes: tuple[int, int] | None) -> str:
     low, high = modes or (0, 0)
-    return {"flutter": f"flutter {low}–{high}", "divergence": f"divergence {low}"}.get(kind, kind)
+    return {"flutter": f"flutter {low}-{high}", "divergence": f"divergence {low}"}.get(kind, kind)
 
 
 def _low(chart: _Map) -> float:

@@ -26,9 +26,10 @@ Maps = dict[tuple[float, Formulation], "Dataset"]
 
 START = ModeShape(1, amplitude=1e-3, at="nose")
 SENSOR = "imu"
-FREE_DURATION = {13: 3.0, 14: 0.5}  # of what is drawn; the motion at P = 128 grows tenfold in 0.14
+FREE_DURATION = {13: 6.0, 14: 0.5}  # of what is drawn; the motion at P = 128 grows tenfold in 0.14
 BOUNDED_DURATION, GROWTH_DURATION, FORCED_DURATION = 40.0, 2.0, 20.0
 FORCED_SWEEP = tuple(np.arange(0.0, 105.1, 5.0).tolist())
+NEWMARK_STEP = 5e-4
 ABOVE = 1.1  # thrust of the diverging motion over the critical one
 DIVERGING = (0.6, 3.0, 1e4)  # diverges under every formulation
 
@@ -169,7 +170,7 @@ def motion(vehicle: Vehicle, formulation: Formulation, thrust: float, duration: 
     """
     operators = discretise(vehicle, formulation)
     initial = START if free else None
-    step = duration / round(duration / 2e-3)
+    step = duration / round(duration / NEWMARK_STEP)
     newmark = response(operators, duration, thrust, step=step, initial=initial, rigid_body=False)
     exact = response(operators, duration, thrust, step=step, method="exact", initial=initial, rigid_body=False)
     return Motion(newmark, exact)

@@ -99,7 +99,9 @@ def findings() -> Findings:
     Findings
     """
     roots, motion = _transposition()
-    return Findings(_sign(), {joint: _truncation(joint) for joint in SHEARED}, [_couple(a) for a in AXES], roots, motion)
+    return Findings(
+        _sign(), {joint: _truncation(joint) for joint in SHEARED}, [_couple(a) for a in AXES], roots, motion
+    )
 
 
 def convergence_curves(found: Findings) -> dict[str, dict[str, list[tuple[int, float]]]]:

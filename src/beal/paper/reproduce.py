@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from beal.discretise.build import Formulation
 from beal.paper import cases, figures
 from beal.paper.claims import Verdict, judge
 from beal.paper.evidence import FORCED_DURATION, FORCED_SWEEP, FREE_DURATION, Maps, Progress, curves, maps, motion
+from beal.paper.figures_motion import forced_motion, free_motion
 from beal.paper.findings import Findings, convergence_curves, findings
 from beal.paper.page import report
 from beal.plot.style import style
@@ -88,27 +90,28 @@ def _judged(charts: Maps, tell: Progress) -> tuple[Findings, list[Verdict]]:
     return findings(), verdicts
 
 
-def _makers(
-    charts: Maps, verdicts: Sequence[Verdict], found: Findings
-) -> list[Callable[[], figures.Drawing]]:
+def _makers(charts: Maps, verdicts: Sequence[Verdict], found: Findings) -> list[Callable[[], figures.Drawing]]:
     """What draws each figure, in the order of the paper."""
     makers: dict[int, Callable[[], figures.Drawing]] = {2: figures.shapes}
     for number in sorted({case.figure for case in cases.CURVES}):
-        makers[number] = lambda number=number: figures.frequencies(
-            number, [curves(case) for case in cases.CURVES if case.figure == number]
-        )
+        makers[number] = partial(_frequencies, number)
     for split, number in cases.MAP_FIGURES.items():
-        makers[number] = lambda number=number, split=split: figures.chart(number, split, charts)
+        makers[number] = partial(figures.chart, number, split, charts)
     for number, thrust in cases.RESPONSE_THRUSTS.items():
-        makers[number] = lambda number=number, thrust=thrust: _free(number, thrust)
-    makers[15] = lambda: _forced(verdicts)
-    return [*(makers[number] for number in sorted(makers)), lambda: figures.convergence(convergence_curves(found))]
+        makers[number] = partial(_free, number, thrust)
+    makers[15] = partial(_forced, verdicts)
+    last = partial(figures.convergence, convergence_curves(found))
+    return [*(makers[number] for number in sorted(makers)), last]
+
+
+def _frequencies(number: int) -> figures.Drawing:
+    return figures.frequencies(number, [curves(case) for case in cases.CURVES if case.figure == number])
 
 
 def _free(number: int, thrust: float) -> figures.Drawing:
     vehicle, duration = tsto(*cases.RESPONSE_JOINT), FREE_DURATION[number]
     motions = {name: motion(vehicle, name, thrust, duration, free=True) for name in cases.ORDER}
-    return figures.free_motion(number, thrust, motions, START_TEXT)
+    return free_motion(number, thrust, motions, START_TEXT)
 
 
 def _forced(verdicts: Sequence[Verdict]) -> figures.Drawing:
@@ -122,7 +125,7 @@ def _forced(verdicts: Sequence[Verdict]) -> figures.Drawing:
         for verdict in verdicts
         if verdict.id == "C9"
     }
-    return figures.forced_motion(motions, FORCED_SWEEP, sweeps)
+    return forced_motion(motions, FORCED_SWEEP, sweeps)
 
 
 def _write(path: Path, text: str) -> None:

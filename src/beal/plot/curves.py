@@ -50,16 +50,16 @@ def thrust_curve(
         _mark(ax, critical, scale)
     ax.set_ylim(bottom=0.0)
     ax.set_xlim(curve.thrust[0], curve.thrust[-1])
-    ax.set_xlabel("thrust P L²/EI" if nondimensional else "thrust P (N)")
-    unit = "frequency ω √(mL⁴/EI)" if nondimensional else "frequency ω (rad/s)"
-    ax.set_ylabel("frequency ω/ω₁(P = 0)" if relative else unit)
+    ax.set_xlabel("thrust $P L^2/EI$" if nondimensional else "thrust P (N)")
+    unit = r"frequency $\omega\sqrt{mL^4/EI}$" if nondimensional else "frequency ω (rad/s)"
+    ax.set_ylabel(r"frequency $\omega/\omega_1(P=0)$" if relative else unit)
     return ax
 
 
 def _mark(ax: "Axes", critical: CriticalThrust, scale: float) -> None:
     thrust, omega = critical.critical_thrust, critical.angular_frequency
     low, high = critical.modes or (0, 0)
-    name = f"flutter {low}–{high}" if critical.kind == "flutter" else f"divergence {low}"
+    name = f"flutter {low}\N{EN DASH}{high}" if critical.kind == "flutter" else f"divergence {low}"
     ax.axvline(thrust or 0.0, color=GREY, linewidth=0.8, linestyle="--", zorder=0)
     ax.plot(
         [thrust or 0.0],

@@ -8,6 +8,8 @@ from beal.response import Response
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+TIME = r"time $\bar t = t\,(EI/mL^4)^{1/2}$"
+
 
 def response(
     result: Response,
@@ -38,10 +40,12 @@ def response(
     ax = axes(ax)
     row = result.index(sensor or result.sensors[0])
     ax.axhline(0.0, color=GREY, linewidth=0.6)
-    ax.plot(result.time, getattr(result, quantity)[row], **{"color": BLUE, "linewidth": 1.0} | line)
-    ax.set_xlabel("time t √(EI/mL⁴)" if nondimensional else "time (s)")
+    look: dict[str, Any] = {"color": BLUE, "linewidth": 1.0} | line
+    ax.plot(result.time, getattr(result, quantity)[row], **look)
+    ax.set_xlabel(TIME if nondimensional else "time (s)")
     ax.set_ylabel(_label(quantity, nondimensional))
     ax.margins(x=0.0)
+    _powers(ax, "y")
     return ax
 
 
@@ -70,14 +74,24 @@ def trajectory(
     """
     ax = axes(ax)
     displacement, rate = result.trajectory(sensor or result.sensors[0])
-    ax.plot(displacement, rate, **{"color": BLUE, "linewidth": 0.8} | line)
+    look: dict[str, Any] = {"color": BLUE, "linewidth": 0.8} | line
+    ax.plot(displacement, rate, **look)
     ax.plot(displacement[:1], rate[:1], marker="o", color=VERMILION, markersize=5, linestyle="none", label="start")
     ax.set_xlabel(_label("displacement", nondimensional))
     ax.set_ylabel(_label("rate", nondimensional))
+    _powers(ax, "both")
     return ax
 
 
+def _powers(ax: "Axes", axis: Literal["y", "both"]) -> None:
+    ax.ticklabel_format(axis=axis, style="sci", scilimits=(-2, 3), useMathText=True)
+
+
 def _label(quantity: str, nondimensional: bool) -> str:
-    dimensionless = {"displacement": "displacement y/L", "rate": "rate d(y/L)/dt̄", "slope": "slope y′ (rad)"}
+    dimensionless = {
+        "displacement": "displacement $y/L$",
+        "rate": r"rate $\mathrm{d}(y/L)/\mathrm{d}\bar t$",
+        "slope": "slope $y'$ (rad)",
+    }
     si = {"displacement": "displacement (m)", "rate": "rate (m/s)", "slope": "slope (rad)"}
     return (dimensionless if nondimensional else si)[quantity]

@@ -1,8 +1,11 @@
 """Maps of the critical thrust over two properties: height as colour, kind and modes as borders, hatching and labels."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
 from beal.plot.style import BLACK, axes
@@ -13,17 +16,18 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 FLUTTER, DIVERGENCE = 1, 2
+NARROW = 0.3  # share of the width below which a region's label stands upright
 SMALLEST_LABEL = 0.012  # share of the map below which a region has no label of its own
 NAMES = {
-    "joint[0].rotational_stiffness": "rotational stiffness k_r L/EI",
-    "joint[0].shear_stiffness": "shear stiffness k_s L³/EI",
+    "joint[0].rotational_stiffness": "rotational stiffness $k_r L/EI$",
+    "joint[0].shear_stiffness": "shear stiffness $k_s L^3/EI$",
 }
 
 
 def stability_map(
     chart: "Dataset",
     ax: "Axes | None" = None,
-    limits: tuple[float, float] | None = None,
+    levels: Sequence[float] | None = None,
     colorbar: bool = True,
 ) -> "Axes":
     """Draw the critical thrust over the two axes of a map.
@@ -36,8 +40,8 @@ def stability_map(
     chart : Dataset
         From `beal.stability_map`, with two dimensions; both axes are drawn logarithmically where they are positive.
     ax : Axes, optional
-    limits : (float, float), optional
-        Thrusts at the ends of the colour scale.
+    levels : sequence of float, optional
+        Thrusts at which the colour changes; by default it changes continuously.
     colorbar : bool
 
     Returns
@@ -49,7 +53,7 @@ def stability_map(
     x, y = (np.asarray(chart[name], dtype=float) for name in (across, up))
     x_edges, y_edges = _edges(x), _edges(y)
     region = _regions(chart)
-    mesh = _colours(ax, x_edges, y_edges, np.asarray(chart.critical_thrust, dtype=float), limits)
+    mesh = _colours(ax, x_edges, y_edges, np.asarray(chart.critical_thrust, dtype=float), levels)
     _hatching(ax, x_edges, y_edges, np.asarray(chart.kind) == DIVERGENCE)
     _borders(ax, x_edges, y_edges, region)
     _labels(ax, x, y, region)
@@ -63,21 +67,27 @@ def stability_map(
     ax.set_xlim(x_edges[0], x_edges[-1])
     ax.set_ylim(y_edges[0], y_edges[-1])
     if colorbar:
-        ax.figure.colorbar(mesh, ax=ax, label="critical thrust P L²/EI", extend="max" if limits else "neither")
+        ax.figure.colorbar(mesh, ax=ax, label="critical thrust $P L^2/EI$")
     return ax
 
 
 def _colours(
-    ax: "Axes", x: NDArray[Any], y: NDArray[Any], thrust: NDArray[Any], limits: tuple[float, float] | None
+    ax: "Axes", x: NDArray[Any], y: NDArray[Any], thrust: NDArray[Any], levels: Sequence[float] | None
 ) -> "QuadMesh":
-    low, high = limits or (0.0, float(np.nanmax(thrust, initial=1.0)))
-    return ax.pcolormesh(x, y, thrust.T, cmap="cividis", vmin=low, vmax=high, rasterized=True, zorder=0)
+    if levels is None:
+        return ax.pcolormesh(x, y, thrust.T, cmap="viridis", vmin=0.0, rasterized=True, zorder=0)
+    norm = BoundaryNorm(levels, 256, extend="max")
+    return ax.pcolormesh(x, y, thrust.T, cmap="viridis", norm=norm, rasterized=True, zorder=0)
 
 
 def _hatching(ax: "Axes", x: NDArray[Any], y: NDArray[Any], hatched: NDArray[np.bool_]) -> None:
-    if hatched.any():
-        only = np.ma.masked_where(~hatched.T, np.ones(hatched.T.shape))
-        ax.pcolor(x, y, only, hatch="////", alpha=0.0, edgecolor="white", linewidth=0.0, zorder=1)
+    cells = [
+        [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])]
+        for i, j in zip(*np.nonzero(hatched), strict=True)
+    ]
+    white = (1.0, 1.0, 1.0, 0.75)
+    patch = PolyCollection(cells, facecolors="none", edgecolors=white, linewidths=0.0, hatch="////", zorder=1)
+    ax.add_collection(patch, autolim=False)
 
 
 def _borders(ax: "Axes", x: NDArray[Any], y: NDArray[Any], region: NDArray[np.int_]) -> None:
@@ -89,14 +99,27 @@ def _borders(ax: "Axes", x: NDArray[Any], y: NDArray[Any], region: NDArray[np.in
 
 
 def _labels(ax: "Axes", x: NDArray[Any], y: NDArray[Any], region: NDArray[np.int_]) -> None:
-    """The name of each kind and pair, in the cell that lies deepest inside its largest patch."""
+    """The name of each kind and pair, in the cell that lies deepest inside its region; upright where that is narrow."""
+    box = {"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": BLACK, "linewidth": 0.6, "alpha": 0.92}
     for value in np.unique(region):
-        depth = _depth(region == value)
-        if np.mean(region == value) < SMALLEST_LABEL:
+        inside = region == value
+        if np.mean(inside) < SMALLEST_LABEL:
             continue
-        i, j = np.unravel_index(np.argmax(depth), depth.shape)
-        box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": BLACK, "linewidth": 0.6, "alpha": 0.92}
-        ax.text(x[i], y[j], _name(int(value)), ha="center", va="center", fontsize=8, bbox=box, zorder=3)
+        depth = _depth(inside)
+        deepest = np.argwhere(depth == depth.max())
+        i, j = deepest[np.argmin(abs(deepest - deepest.mean(axis=0)).sum(axis=1))]
+        wide, high = inside[:, j].mean(), inside[i].mean()
+        ax.text(
+            x[i],
+            y[j],
+            _name(int(value)),
+            ha="center",
+            va="center",
+            rotation=90 if wide < NARROW < high else 0,
+            fontsize=8 if depth.max() > 2 else 6.5,
+            bbox=box,
+            zorder=3,
+        )
 
 
 def _depth(inside: NDArray[np.bool_]) -> NDArray[np.float64]:
@@ -123,7 +146,7 @@ def _regions(chart: "Dataset") -> NDArray[np.int_]:
 def _name(region: int) -> str:
     kind, pair = divmod(region, 10_000)
     low, high = divmod(pair, 100)
-    return {0: "stable", FLUTTER: f"flutter {low}–{high}", DIVERGENCE: f"divergence {low}"}[kind]
+    return {0: "stable", FLUTTER: f"flutter {low}\N{EN DASH}{high}", DIVERGENCE: f"divergence {low}"}[kind]
 
 
 def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -47,6 +47,6 @@ def mode_shapes(spectrum: Spectrum, operators: Operators, ax: "Axes | None" = No
             ax.plot(x, sign * (deflection / largest).real, color=color, linestyle=dash, label=label)
             label = ""
     ax.axhline(0.0, color=GREY, linewidth=0.6)
-    ax.set(xlabel="station x/L" if nondimensional else "station x (m)", ylabel="deflection (largest = 1)")
+    ax.set(xlabel="station $x/L$" if nondimensional else "station x (m)", ylabel="deflection (largest = 1)")
     ax.margins(x=0.0)
     return ax

@@ -115,8 +115,8 @@ class Page:
         self.add(*(f'<div class="eq">{line}</div>' for line in lines))
 
     def figure(self, anchor: str, picture: str, title: str, caption: str) -> None:
-        """Append a figure: an ``svg`` element, or an ``img`` element, with a title and a caption in plain text."""
-        described = f"<figcaption><b>{escape(title)}.</b> {escape(caption)}</figcaption>"
+        """Append a figure, an ``svg`` or ``img`` element, with a title and a caption of HTML."""
+        described = f"<figcaption><b>{title}.</b> {caption}</figcaption>"
         self.add(f'<figure id="{anchor}"><div class="wide">{picture}</div>{described}</figure>')
 
     def html(self) -> str:

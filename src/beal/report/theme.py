@@ -7,7 +7,8 @@ body { margin: 0; color: var(--ink); background: #fff; font: 17px/1.58 Charter, 
   Cambria, Georgia, "DejaVu Serif", serif; }
 main { max-width: 860px; margin: 0 auto; padding: 2.5rem 1.1rem 4rem; }
 h1 { font-size: 1.9rem; line-height: 1.22; margin: 0 0 .5rem; text-wrap: balance; }
-h2 { font-size: 1.32rem; line-height: 1.3; margin: 2.8rem 0 .6rem; padding-top: .8rem; border-top: 1px solid var(--line); }
+h2 { font-size: 1.32rem; line-height: 1.3; margin: 2.8rem 0 .6rem;
+  padding-top: .8rem; border-top: 1px solid var(--line); }
 h3 { font-size: 1.06rem; margin: 1.9rem 0 .4rem; }
 p { margin: .6rem 0 .9rem; hyphens: auto; }
 a { color: var(--accent); text-underline-offset: .15em; }
@@ -20,7 +21,8 @@ nav { font-size: .93rem; margin: 1.2rem 0; } nav a { margin-right: 1rem; white-s
 table { border-collapse: collapse; font-size: .83rem; line-height: 1.4; width: 100%; font-variant-numeric: tabular-nums;
   font-family: system-ui, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif; }
 caption { text-align: left; color: var(--soft); padding-bottom: .45rem; font-size: .85rem; }
-th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); padding: .32rem .55rem; vertical-align: bottom; }
+th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); padding: .32rem .55rem;
+  vertical-align: bottom; }
 td { border-bottom: 1px solid var(--line); padding: .32rem .55rem; vertical-align: top; }
 td.n, th.n { text-align: right; white-space: nowrap; }
 .v { font-weight: 600; white-space: nowrap; }

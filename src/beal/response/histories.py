@@ -84,9 +84,8 @@ def growth_rate(response: Response, sensor: str) -> float:
     displacement, rate = (history[late] for history in response.trajectory(sensor))
     if not displacement.any():
         raise ModelError(f"sensor {sensor!r}: does not move in the second half, no growth can be told")
-    turn = np.flatnonzero(rate[:-1] * rate[1:] < 0)
-    if len(turn) >= 4:
-        instants, peaks = _turning_points(time, displacement, rate, turn)
+    instants, peaks = turning_points(time, displacement, rate)
+    if len(peaks) >= 4:
         time, displacement = (instants[1:] + instants[:-1]) / 2, np.diff(peaks)
     size = abs(displacement)
     time, size = time[size > 0], size[size > 0]
@@ -94,10 +93,28 @@ def growth_rate(response: Response, sensor: str) -> float:
     return float(np.polyfit(time, np.log(size), 1, w=weight)[0])
 
 
-def _turning_points(time: Array, displacement: Array, rate: Array, turn: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Times and displacements of the turning points behind the indices ``turn``, by cubic interpolation."""
-    h = time[turn + 1] - time[turn]
-    y0, y1, v0, v1 = displacement[turn], displacement[turn + 1], h * rate[turn], h * rate[turn + 1]
+def turning_points(time: Array, displacement: Array, rate: Array) -> tuple[Array, Array]:
+    """Times and displacements where a sampled motion turns back, by cubic interpolation between samples.
+
+    Parameters
+    ----------
+    time, displacement, rate : ndarray, shape (k,)
+
+    Returns
+    -------
+    ndarray, ndarray
+        As many as the rate changes sign.
+
+    Examples
+    --------
+    >>> t = np.linspace(0.0, 7.0, 50)
+    >>> instants, peaks = turning_points(t, np.sin(t), np.cos(t))
+    >>> np.round(instants / np.pi, 3).tolist(), np.round(peaks, 5).tolist()
+    ([0.5, 1.5], [1.0, -1.0])
+    """
+    before = np.flatnonzero(rate[:-1] * rate[1:] < 0)
+    h = time[before + 1] - time[before]
+    y0, y1, v0, v1 = displacement[before], displacement[before + 1], h * rate[before], h * rate[before + 1]
     s = v0 / (v0 - v1)
     cubic = (1 + 2 * s) * (1 - s) ** 2 * y0 + s * (1 - s) ** 2 * v0 + s**2 * (3 - 2 * s) * y1 - s**2 * (1 - s) * v1
-    return time[turn] + s * h, cubic
+    return time[before] + s * h, cubic

@@ -29,6 +29,7 @@ WATCHED, SPARE = 8, 3  # elastic modes watched, and kept beyond them in the redu
 COMPLETE_SPARE = 2
 FIRST_ORDER = {"legendre": 8, "hermite": 8}
 LAST_ORDER = {"legendre": 26, "hermite": 64}
+FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
 TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
 
 
@@ -291,7 +292,8 @@ def _refined(task: _Task, found: Instability, tolerance: float) -> tuple[Critica
         if len(thrusts) < 3:
             continue
         before, last = abs(thrusts[-2] - thrusts[-3]), abs(thrusts[-1] - thrusts[-2])
-        error = last * min(1.0, last / before if before else 1.0) + point.uncertainty
+        # A geometric sequence leaves last^2 / before; one that no longer falls shows rounding, twice sampled.
+        error = (last * last / before if last < FALLING * before else max(last, before)) + point.uncertainty
         if error <= tolerance * point.thrust:
             return point, error
     raise ConvergenceError(

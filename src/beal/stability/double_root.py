@@ -19,7 +19,7 @@ from beal.stability.pencil import Array, Pencil
 
 STEPS = 30
 FAR = 100.0  # times the guess: Newton's method has lost its way
-ROUNDING = 10 * float(np.finfo(float).eps)  # of an assembled matrix entry: a sum of tens of products
+ROUNDING = 50 * float(np.finfo(float).eps)  # of sums of tens of products, three transformations deep
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,13 @@ def divergence(pencil: Pencil, thrust: float, neutral: bool = False) -> Critical
 def _point(
     pencil: Pencil, thrust: float, W: float, converged: bool, at: _Bordered, change: Array, slope: float
 ) -> CriticalPoint:
-    magnitude = np.abs(pencil.K0) + abs(thrust) * np.abs(pencil.K1) + abs(W) * np.abs(pencil.M)
+    magnitude = _terms(pencil.K0) + abs(thrust) * _terms(pencil.K1) + abs(W) * _terms(pencil.M)
     rounding = ROUNDING * float(np.abs(at.left) @ magnitude @ np.abs(change))
     uncertainty = rounding / abs(slope) if slope else np.inf
     return CriticalPoint(float(thrust), float(W), converged, float(uncertainty), at.right, at.left)
+
+
+def _terms(matrix: Array) -> Array:
+    """Size of the terms whose sum a matrix entry is, which may cancel in it: that of the diagonal, as if of squares."""
+    size = np.sqrt(np.abs(np.diag(matrix)))
+    return np.maximum(np.abs(matrix), np.outer(size, size))

@@ -25,6 +25,7 @@ Kind = Literal["flutter", "divergence"]
 REAL = 1e-4  # relative imaginary part up to which rounding may split a pair of real roots that nearly meet
 FLAT = 1e-9  # height, as a share of the ridge's at the start, above which -height still counts as touching zero
 DIP = 0.5  # an interval is looked at again where a ridge dips below this share of its height at both ends
+SOFT = 4.0 ** np.arange(-6, 0)  # shares of the first coarse interval, for joints much softer than the stages
 NARROW = 1e-7  # share of the thrust searched below which an interval is not divided further
 
 
@@ -120,7 +121,8 @@ class Search:
             If an unstable interval was bracketed but its critical point could not be resolved.
         """
         left = self.state(0.0)
-        for thrust in np.linspace(0.0, self.limit, self.steps + 1)[1:]:
+        even = np.linspace(0.0, self.limit, self.steps + 1)[1:]
+        for thrust in np.append(even[0] * SOFT, even):
             right = self.state(float(thrust))
             if found := self._within(left, right):
                 return found
@@ -178,7 +180,8 @@ class Search:
         inside = left.thrust < point.thrust <= right.thrust
         if not (point.converged and inside):
             return None
-        for nearest in (1e-5, 1e-3):  # a root that meets a zero one, or is all but zero, is lost in rounding closer by
+        # A root that meets a zero one, or is all but zero, is lost in rounding closer by.
+        for nearest in (1e-5, 1e-3) if kind == "divergence" else (1e-5,):
             margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
             before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
             if before.stable and not after.stable:

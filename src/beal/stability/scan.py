@@ -11,6 +11,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from beal.stability.pencil import Array
+from beal.stability.polish import polished
 from beal.stability.table import Table
 
 Integers = NDArray[np.intp]
@@ -99,9 +100,11 @@ def _scan(table: Table, coarser: Table, stiffnesses: Array, intervals: int) -> F
     ends = nodes.W[vehicles, interval, ridge], nodes.W[vehicles, interval + 1, ridge]
     P, W = left + share * (right - left), (1 - share) * ends[0] + share * ends[1]
     P, W, converged = _newton(table, weights[vehicles], P, W, ridge > 0)
-    before = _nodes(table, weights[vehicles], (P - MARGIN * np.abs(P))[:, None])
-    clear = np.all(before.heights[:, 0] > -FLAT, axis=1) & before.sound[:, 0]
-    error = _difference(coarser, coarser.weights(stiffnesses[vehicles]), P, W)
+    before = np.column_stack((left, P - MARGIN * np.abs(P)))
+    checked = _nodes(table, weights[vehicles], before)
+    unclear = _dips(checked, np.diff(before)) | _leaps(checked)
+    clear = np.all(checked.heights[:, 1] > -FLAT, axis=1) & checked.sound[:, 1] & ~unclear[:, 0]
+    P, W, error = _polished(table, coarser, stiffnesses[vehicles], P, W, ridge > 0)
     good = converged & clear & (left <= P) & (right >= P) & (share <= 1) & np.isfinite(error)
     kept = vehicles[good]
     found.kind[kept] = np.where(ridge[good] > 0, FLUTTER, DIVERGENCE)
@@ -167,7 +170,7 @@ def _value(coefficients: Array, x: Array) -> Array:
 def _dips(nodes: _Nodes, steps: Array) -> Booleans:
     """Intervals in which a ridge that is positive at both ends may dip to zero between, (vehicles, intervals)."""
     a, b = nodes.heights[:, :-1], nodes.heights[:, 1:]
-    da, db = (steps[:, None] * slopes for slopes in (nodes.slopes[:, :-1], nodes.slopes[:, 1:]))
+    da, db = (steps[..., None] * slopes for slopes in (nodes.slopes[:, :-1], nodes.slopes[:, 1:]))
     lower = np.minimum(a, b)
     deepest = lower
     for t in np.linspace(0.1, 0.9, 9):
@@ -225,9 +228,10 @@ def _newton(table: Table, weights: Array, P: Array, W: Array, flutter: Booleans)
     return P, W, converged & inside
 
 
-def _difference(other: Table, weights: Array, P: Array, W: Array) -> Array:
-    """How far the critical thrust of another table is from P, to first order: at a double root D_W = 0."""
-    with np.errstate(all="ignore"):
-        D, D_P, D_W, D_WW, _ = _derivatives(other, weights, P, W)
-        shifted = np.where(W > 0, D - D_W**2 / (2 * D_WW), D)
-        return np.abs(shifted / D_P)
+def _polished(
+    table: Table, coarser: Table, stiffnesses: Array, P: Array, W: Array, flutter: Booleans
+) -> tuple[Array, Array, Array]:
+    """Critical points of the matrices behind the table, and how far those of the coarser ones are from them."""
+    coarse, _ = polished(coarser.springs, stiffnesses, P, W, flutter)
+    P, W = polished(table.springs, stiffnesses, P, W, flutter)
+    return P, W, np.abs(P - coarse)

@@ -20,6 +20,7 @@ from numpy.polynomial import chebyshev
 from beal.discretise import Formulation, discretise
 from beal.discretise.operators import Operators
 from beal.stability.pencil import Array, pencil, reduced
+from beal.stability.polish import SpringPencil
 from beal.vehicle.paths import with_values
 from beal.vehicle.vehicle import Vehicle
 
@@ -46,22 +47,22 @@ class Table:
     low, high, top : float
     coefficients : ndarray, shape (2**springs, degree in thrust + 1, degree in W + 1)
         Chebyshev coefficients for each subset of springs, the binary digits of its index.
-    references : ndarray, shape (springs,)
-        Stiffnesses of the beam that the springs' are divided by.
+    springs : SpringPencil
+        What it was made from.
     """
 
     low: float
     high: float
     top: float
     coefficients: Array
-    references: Array
+    springs: SpringPencil
 
     def weights(self, stiffnesses: Array) -> Array:
         """Factors of the subsets for vehicles with given springs, shape (vehicles, 2**springs).
 
         D is divided by prod(1 + k/k_ref), which keeps a hinge and a rigid joint alike finite.
         """
-        soft = 1 / (1 + stiffnesses / self.references)
+        soft = 1 / (1 + stiffnesses / self.springs.references)
         weights = np.ones((len(stiffnesses), 1))
         for spring in soft.T:
             weights = np.hstack((weights * spring[:, None], weights * (1 - spring[:, None])))
@@ -75,7 +76,7 @@ def tables(
     panel: tuple[float, float],
     degrees: Degrees,
 ) -> Table | None:
-    """Table of a vehicle over a panel of thrusts, or None where a rigid-body root would spoil it.
+    """Table of a vehicle over a panel of thrusts.
 
     Parameters
     ----------
@@ -90,15 +91,17 @@ def tables(
     Returns
     -------
     Table or None
+        None where a rigid-body root would spoil it, or supports couple a spring with the other coordinates.
     """
     paths = [f"joint[{joint}].{name}" for joint, name in springs]
     operators = discretise(with_values(vehicle, dict.fromkeys(paths, 0.0)), formulation, order=degrees.order)
     rigid = discretise(with_values(vehicle, dict.fromkeys(paths, math.inf)), formulation, order=degrees.order)
-    full = pencil(operators)
-    if full.rigid:
+    springs_of = _springs(operators, springs)
+    if springs_of is None:
         return None
+    full = springs_of.pencil
+    rows = np.eye(len(full.M))[springs_of.columns]
     top = float(np.sqrt(np.prod(reduced(pencil(rigid)).roots(0.0)[MODES - 1 : MODES + 1].real)))
-    rows, references = _rows(operators, springs)
     x_P, x_W = (np.cos(np.pi * (np.arange(n + 1) + 0.5) / (n + 1)) for n in (degrees.thrust, degrees.W))
     thrusts, W = panel[0] + (panel[1] - panel[0]) * (1 + x_P) / 2, top * (1 + x_W) / 2
     stiffness = full.K0 + thrusts[:, None, None] * full.K1
@@ -107,20 +110,22 @@ def tables(
     values = np.linalg.det(A) * np.array([_minor(inverse, subset) for subset in range(2 ** len(springs))])
     in_W = np.linalg.solve(chebyshev.chebvander(x_W, degrees.W), np.swapaxes(values, 1, 2))
     coefficients = np.linalg.solve(chebyshev.chebvander(x_P, degrees.thrust), np.swapaxes(in_W, 1, 2))
-    return Table(panel[0], panel[1], top, coefficients, references)
+    return Table(panel[0], panel[1], top, coefficients, springs_of)
 
 
-def _rows(operators: Operators, springs: Sequence[Spring]) -> tuple[Array, Array]:
-    """Rows that read the springs' deformations, scaled by the stiffness of the beam behind, and those stiffnesses."""
-    vehicle, basis = operators.vehicle, operators.basis
+def _springs(operators: Operators, springs: Sequence[Spring]) -> SpringPencil | None:
+    """The pencil and the coordinates of the springs, where each has one of its own."""
+    full, basis = pencil(operators), operators.basis
     fronts = {segment.stage: index for index, segment in reversed(list(enumerate(basis.segments)))}
-    rows, references = [], []
+    columns, references = [], []
     for joint, name in springs:
-        derivative = 1 if name == "rotational_stiffness" else 0
-        beam = vehicle.stages[joint + 1].bending_stiffness / vehicle.length ** (3 - 2 * derivative)
-        rows.append(basis.jump(fronts[joint + 1], derivative)[operators.rigid :] * math.sqrt(beam))
-        references.append(beam)
-    return np.array(rows), np.array(references)
+        jump = basis.jump(fronts[joint + 1], 1 if name == "rotational_stiffness" else 0)[operators.rigid :]
+        own = np.flatnonzero(np.abs(jump) > 1e-9 * np.abs(jump).max())
+        if full.rigid or len(own) != 1:
+            return None
+        columns.append(own[0])
+        references.append(1 / jump[own[0]] ** 2)
+    return SpringPencil(full, np.array(columns), np.array(references))
 
 
 def _minor(matrices: Array, subset: int) -> Array:

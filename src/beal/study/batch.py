@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 WORTHWHILE = 12  # vehicles from which on a table costs less than solving each by itself
 PANELS = 4  # on which the thrusts up to the default limit are tabulated, each when it is needed
 DEGREES = (Degrees(14, 20, 14), Degrees(12, 16, 12))  # the second for the error estimate
-FLOOR = 1e-9  # relative rounding of a table, found against the search for one vehicle
+FLOOR = 1e-12  # relative rounding of the critical thrust
 TABULATED: tuple[Formulation, ...] = ("objective", "converged")
 
 

@@ -1,0 +1,126 @@
+"""Studies: the grid, the study file, and what happens at points that cannot be solved."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import beal
+from beal.study.file import load_study
+from beal.study.store import BLOCK, block_shape, blocks
+from beal.study.study import spaced
+
+ROTATIONAL, SHEAR = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
+VEHICLE = beal.catalog.tsto(0.6, 5000.0, 5000.0)
+
+
+def study_file(folder: Path, text: str) -> Path:
+    (folder / "tsto.toml").write_text(beal.dumps(VEHICLE))
+    path = folder / "study.toml"
+    path.write_text(text)
+    return path
+
+
+def test_a_study_file_resolves_ranges_and_values(tmp_path):
+    path = study_file(
+        tmp_path,
+        f"""
+        model = "tsto.toml"
+        [grid]
+        "{ROTATIONAL}" = {{from = 1, to = 1e4, points = 5, spacing = "log"}}
+        "stage.split" = {{values = [0.2, 0.4]}}
+        [solve]
+        max_thrust = 300
+        formulation = "converged"
+        """,
+    )
+    study = load_study(path)
+    assert study.axes[ROTATIONAL] == pytest.approx((1, 10, 100, 1000, 10000), rel=1e-15)
+    assert study.axes["stage.split"] == (0.2, 0.4)
+    assert (study.solve.max_thrust, study.solve.formulation, study.shape) == (300.0, "converged", (5, 2))
+    assert study.at((1, 0)).boundaries[1] == 0.2
+
+
+@pytest.mark.parametrize(
+    ("grid", "message"),
+    [
+        ('"joint[0].rotational_stifness" = {values = [1]}', "nearest are joint"),
+        (f'"{ROTATIONAL}" = {{from = 0, to = 10, points = 3, spacing = "log"}}', "positive ends"),
+        (f'"{ROTATIONAL}" = {{from = 1, to = 10}}', "either values or all of"),
+        (f'"{ROTATIONAL}" = {{from = 1, to = 10, points = 3, values = [1]}}', "either values or all of"),
+        (f'"{ROTATIONAL}" = {{from = 1, to = 10, points = 0}}', "points"),
+        (f'"{ROTATIONAL}" = {{values = []}}', "at least one value"),
+        (f'"{ROTATIONAL}" = {{values = [-1.0]}}', r"joint\[0\].rotational_stiffness"),
+        (f'"{ROTATIONAL}" = {{values = [nan]}}', "nan"),
+        ("", "at least one axis"),
+    ],
+)
+def test_a_bad_grid_is_refused_with_its_path(tmp_path, grid, message):
+    path = study_file(tmp_path, f'model = "tsto.toml"\n[grid]\n{grid}\n')
+    with pytest.raises(beal.ModelError, match=message):
+        load_study(path)
+
+
+def test_all_problems_of_a_study_file_come_together(tmp_path):
+    path = study_file(tmp_path, 'modle = "tsto.toml"\n[grid]\n[solve]\ntolerance = 2\nformulation = "printed"\n')
+    with pytest.raises(beal.ModelError) as error:
+        load_study(path)
+    for part in ("modle", "model", "solve.tolerance", "solve.formulation"):
+        assert part in str(error.value)
+
+
+def test_a_study_of_a_missing_model_says_which(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text('model = "nowhere.toml"\n[grid]\n"stage.split" = {values = [0.2]}\n')
+    with pytest.raises(beal.ModelError, match=r"nowhere\.toml"):
+        load_study(path)
+
+
+@pytest.mark.parametrize("shape", [(7,), (100, 100), (3, 1, 5000), (2, 3, 4, 5)])
+def test_blocks_cover_a_grid_once(shape):
+    seen = np.zeros(shape, dtype=int)
+    for block in blocks(shape):
+        seen[block] += 1
+    assert np.all(seen == 1)
+    assert np.prod(block_shape(shape)) >= min(BLOCK, np.prod(shape)) / 2
+
+
+def test_spacing_holds_both_ends_exactly():
+    assert spaced(1.0, 1e4, 7, "log")[::6] == (1.0, 1e4)
+    assert spaced(0.1, 0.9, 4, "linear") == pytest.approx((0.1, 0.1 + 0.8 / 3, 0.1 + 1.6 / 3, 0.9))
+
+
+def test_a_point_that_the_model_refuses_is_invalid_and_the_others_are_solved():
+    result = beal.stability_map(VEHICLE, {"stage.split": [0.2, 1.2, 0.8]})
+    assert result["status"].values.tolist() == [1, 3, 1]
+    assert np.isnan(result["critical_thrust"].values[1])
+    assert result["status"].attrs["flag_meanings"].split()[3] == "invalid"
+
+
+def test_a_vehicle_stable_to_the_limit_has_kind_stable_and_no_thrust():
+    result = beal.stability_map(VEHICLE, {ROTATIONAL: [1e3, 1e4]}, max_thrust=50.0)
+    assert result["kind"].values.tolist() == [0, 0]
+    assert np.all(np.isnan(result["critical_thrust"].values))
+    assert result["status"].values.tolist() == [1, 1]
+
+
+def test_a_map_says_what_it_was_made_from():
+    result = beal.stability_map(VEHICLE, {SHEAR: [1e3]}, formulation="corrected-ritz", modes=6)
+    assert result.attrs["formulation"] == "corrected-ritz"
+    assert result.attrs["units"] == "nondimensional"
+    assert "solve.modes" in result.attrs["inputs"]
+    assert len(result.attrs["inputs_sha256"]) == 64
+    assert result["critical_thrust"].dims == (SHEAR,)
+
+
+def test_infinite_stiffness_is_a_value_like_any_other():
+    result = beal.stability_map(VEHICLE, {ROTATIONAL: [math.inf] * 7 + [1e12] * 7, SHEAR: [math.inf]})
+    thrust = result["critical_thrust"].values
+    assert thrust == pytest.approx(109.689191958738, rel=1e-9)
+
+
+@pytest.mark.parametrize("workers", [0, -1])
+def test_workers_must_be_positive(workers):
+    with pytest.raises(beal.ModelError, match="workers"):
+        beal.stability_map(VEHICLE, {SHEAR: [1e3]}, workers=workers)
