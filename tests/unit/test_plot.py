@@ -47,7 +47,9 @@ def test_mode_shapes_are_scaled_to_one(ax):
     assert max(heights) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(("joint", "name"), [((0.6, 5000.0, 5000.0), "flutter 1\N{EN DASH}2"), ((0.6, 1.0, 1e4), "divergence 1")])
+@pytest.mark.parametrize(
+    ("joint", "name"), [((0.6, 5000.0, 5000.0), "flutter 1\N{EN DASH}2"), ((0.6, 1.0, 1e4), "divergence 1")]
+)
 def test_the_critical_thrust_is_marked_by_its_kind(ax, joint, name):
     vehicle = catalog.tsto(*joint)
     found = critical_thrust(vehicle)

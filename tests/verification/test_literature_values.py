@@ -235,7 +235,7 @@ def test_rigid_body_motion_of_beals_missile_is_a_fourfold_zero_root(thrust):
     assert pencil(operators).rigid == 0
     assert np.abs(K[1:, :2]).max() < small  # a tilted vehicle is pushed sideways, K[0, 1], and that is all
     assert abs(K[0, 0]) < small
-    assert abs(K[0, 1]) > 0.5 * thrust
+    assert abs(K[0, 1]) >= 0.5 * thrust
 
 
 @pytest.mark.parametrize(

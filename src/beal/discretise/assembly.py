@@ -1,6 +1,7 @@
 """Energies and virtual work as matrices, for any basis (the theory's section on energies, term by term)."""
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -61,6 +62,9 @@ def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: 
     return Operators(vehicle, mass, bending, follower - geometric, rigid, basis)
 
 
+gauss = cache(leggauss)
+
+
 @dataclass(frozen=True)
 class _Samples:
     """Shapes at the Gauss points of all segments, with the weights of the integrals."""
@@ -84,7 +88,7 @@ class _Samples:
 
 
 def _sample(vehicle: Vehicle, basis: Basis) -> _Samples:
-    xi, weight = leggauss(basis.quadrature)
+    xi, weight = gauss(basis.quadrature)
     chain = basis.segments
     half = np.array([segment.length / 2 for segment in chain])
     weights = np.outer(half, weight)

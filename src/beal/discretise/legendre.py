@@ -5,7 +5,7 @@ diagonal, each coordinate is scaled by its own stiffness, and a joint of 1e12 is
 joint has no coordinate at all.
 """
 
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -23,10 +23,12 @@ class LegendreBasis(Basis):
     vehicle : Vehicle
     order : int
         Highest degree of the curvature, at least 1 (0 and 1 carry the segment's end rotation and deflection).
+    pieces : int
+        Equal parts into which each segment is cut.
     """
 
-    def __init__(self, vehicle: Vehicle, order: int) -> None:
-        self.segments = segments(vehicle)
+    def __init__(self, vehicle: Vehicle, order: int, pieces: int = 1) -> None:
+        self.segments = segments(vehicle, pieces)
         self.quadrature = order + 3  # exact to degree 2 * order + 5, the mass integrand has 2 * order + 4
         self._order = order
         chain = Chain(vehicle, self.segments, per_segment=order + 1)
@@ -55,7 +57,7 @@ class LegendreBasis(Basis):
     def _local(self, index: int, xi: Array, derivative: int) -> Array:
         """Deflection, slope or curvature that the segment's own coordinates add behind its front."""
         length = self.segments[index].length
-        values = legendre.legvander(xi, self._order + 2) @ _integrals(self._order, 2 - derivative)
+        values = _polynomials(self._order, 2 - derivative, tuple(xi))
         degree = np.arange(self._order + 1)
         unit_energy = np.sqrt((2 * degree + 1) / (length * self._stiffness[index]))
         return np.asarray(values * unit_energy * (length / 2) ** (2 - derivative))
@@ -69,6 +71,12 @@ class LegendreBasis(Basis):
             rows += slope
         rows[:, self._columns[segment]] += self._local(segment, xi, derivative)
         return rows
+
+
+@lru_cache(maxsize=256)
+def _polynomials(order: int, times: int, xi: tuple[float, ...]) -> Array:
+    """P_0..P_order integrated from -1 ``times`` times, at xi; the same few points come again for every segment."""
+    return legendre.legvander(np.array(xi), order + 2) @ _integrals(order, times)
 
 
 @cache

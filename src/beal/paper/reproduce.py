@@ -18,7 +18,7 @@ from beal.paper.page import report
 from beal.plot.style import style
 from beal.vehicle.catalog import tsto
 
-POINTS = 28  # per axis of each map
+POINTS = 32  # per axis of each map
 START_TEXT = "Released at rest in the shape of the first free mode, with the nose deflected by L/1000."
 
 
@@ -44,13 +44,17 @@ def reproduce(directory: str | Path, points: int | None = None, progress: Progre
     points = points or POINTS
     tell = progress or (lambda text, done, total: None)
     drawings: list[figures.Drawing] = []
+    pictures: dict[str, dict[str, bytes]] = {}
+    charts = maps(points, tell)
+    found, verdicts = _judged(charts, tell)
     with style():
-        charts = maps(points, tell)
-        found, verdicts = _judged(charts, tell)
-        for make in _makers(charts, verdicts, found):
-            drawings.append(make())
-            tell(f"figure {drawings[-1].name}", len(drawings), 16)
-        pictures = {drawing.name: save(drawing, folder) for drawing in drawings}
+        makers = _makers(charts, verdicts, found)
+        for make in makers:
+            tell("figures", len(drawings), len(makers))
+            drawing = make()
+            drawings.append(drawing)
+            pictures[drawing.name] = save(drawing, folder)
+    tell("figures", len(drawings), len(makers))
     _write(folder / "claims.json", json.dumps([verdict.record() for verdict in verdicts], indent=1, ensure_ascii=False))
     page = report(drawings, pictures, verdicts, found, charts, points)
     _write(folder / "report.html", page)

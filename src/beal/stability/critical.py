@@ -30,6 +30,7 @@ COMPLETE_SPARE = 2
 FIRST_ORDER = {"legendre": 8, "hermite": 8}
 LAST_ORDER = {"legendre": 26, "hermite": 64}
 FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
+SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
 TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
 
 
@@ -292,14 +293,20 @@ def _refined(task: _Task, found: Instability, tolerance: float) -> tuple[Critica
         if len(thrusts) < 3:
             continue
         before, last = abs(thrusts[-2] - thrusts[-3]), abs(thrusts[-1] - thrusts[-2])
-        # A geometric sequence leaves last^2 / before; one that no longer falls shows rounding, twice sampled.
-        error = (last * last / before if last < FALLING * before else max(last, before)) + point.uncertainty
+        error = _remaining(before, last, point.uncertainty) + point.uncertainty
         if error <= tolerance * point.thrust:
             return point, error
     raise ConvergenceError(
         f"critical thrust {point.thrust:.9g}: relative error {error / point.thrust:.1e} with the finest "
         f"discretisation, {tolerance:.1e} was asked for; ask for less"
     )
+
+
+def _remaining(before: float, last: float, rounding: float) -> float:
+    """Error left after two successive corrections: that of a geometric sequence, or of rounding, sampled twice."""
+    if last >= FALLING * before:
+        return SAMPLED * max(last, before)
+    return last * last / before if last > rounding else SAMPLED * last
 
 
 def _ladder(task: _Task, found: Instability) -> Iterator[CriticalPoint]:
