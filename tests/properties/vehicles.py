@@ -50,7 +50,9 @@ def random_stages(rng: np.random.Generator) -> list[Stage]:
     number = int(rng.integers(1, 6))
     lengths = 0.05 + (1 - 0.05 * number) * rng.dirichlet(np.ones(number))
     return [
-        Stage(length=length, mass_per_length=10 ** rng.uniform(-0.5, 0.5), bending_stiffness=10 ** rng.uniform(-0.5, 0.5))
+        Stage(
+            length=length, mass_per_length=10 ** rng.uniform(-0.5, 0.5), bending_stiffness=10 ** rng.uniform(-0.5, 0.5)
+        )
         for length in lengths.tolist()
     ]
 

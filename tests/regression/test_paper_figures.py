@@ -14,7 +14,7 @@ import pytest
 from beal.discretise import FORMULATIONS
 from beal.discretise.joint_modes import joint_modes
 from beal.paper import cases
-from beal.paper.evidence import critical, forced_amplitude, growth
+from beal.paper.evidence import critical, forced_amplitude, growth, motion
 from beal.paper.findings import AXES, _couple
 from beal.stability.curve import thrust_curve
 from beal.study.map import stability_map
@@ -70,11 +70,12 @@ def maps():
 
 
 def motions():
-    """Growth rates behind Figs. 13 and 14, amplitudes behind Fig. 15."""
+    """Growth rates and displacements behind Figs. 13 and 14, amplitudes behind Fig. 15."""
     return {
         name: [
             growth(cases.RESPONSE_JOINT, name, 90.0, 4.0).amplitude_ratio,
             growth(cases.RESPONSE_JOINT, name, 128.0, 2.0).eigenvalue_rate,
+            *motion(tsto(*cases.RESPONSE_JOINT), name, 90.0, 1.0, free=True).exact.displacement[0][::500].tolist(),
             *(forced_amplitude(name, thrust, 0.01) for thrust in cases.FORCED_THRUSTS),
         ]
         for name in FORMULATIONS

@@ -80,7 +80,7 @@ def test_a_map_names_its_regions(ax):
 
 
 def test_only_divergence_is_hatched(ax):
-    kind = np.array([[2], [1], [0]])
+    kind = np.array([[2], [1], [1]])
     plot.stability_map(chart(kind, 1, 2), ax, colorbar=False)
     hatched = [collection for collection in ax.collections if collection.get_hatch()]
     assert [len(collection.get_paths()) for collection in hatched] == [4]

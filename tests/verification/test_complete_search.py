@@ -1,12 +1,12 @@
 """The ridge scan against the search that finds all critical thrusts from one eigenvalue problem."""
 
 import pytest
-from properties.vehicles import random_vehicles
 
 from beal.stability.critical import critical_thrust
 from beal.vehicle import catalog
 from beal.vehicle.parts import Joint, PointMass, Stage
 from beal.vehicle.vehicle import Vehicle
+from properties.vehicles import random_vehicles
 
 COUNT = 120
 

@@ -1,5 +1,6 @@
 """The paper's figures, redrawn under the formulations side by side."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ from beal.vehicle.catalog import tsto
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
+    from xarray import Dataset
 
 WIDTH = 7.4  # inches, of the page
 LEVELS = (0, 20, 40, 60, 80, 90, 95, 100, 105, 110, 115, 120, 130, 140, 160)  # of the colours of all maps
@@ -105,11 +107,12 @@ def shapes() -> Drawing:
     lambdas = "; ".join(
         f"{cases.NAMES[name]}: " + ", ".join(f"{v:.4f}" for v in roots) for name, roots in wavenumbers.items()
     )
+    largest = 1 + int(np.argmax(abs(jumps["corrected-ritz"][0])))
     caption = (
         "The first four admissible functions for L₁ = 0.2, k_r = k_s = 3000, under the printed and the right sign of "
         "the rotational line of Eq. (12). The deflection jumps at the joint (dotted line), where the shear spring "
-        "gives; the jump grows with the mode number because the shear force grows with λ³. Below, both jumps: that "
-        f"of the deflection is the same, that of the slope has the opposite sign. λ {lambdas}."
+        f"gives, most of all in mode {largest}. Below, both jumps: that of the deflection is the same, that of the "
+        f"slope has the opposite sign. λ {lambdas}."
     )
     table = Table(
         "Admissible functions of Eq. (10), unit generalised mass, L1/L = 0.2, k_r L/EI = k_s L^3/EI = 3000; station "
@@ -250,7 +253,8 @@ def chart(number: int, split: float, charts: Maps) -> Drawing:
         ax.set_title(f"{'abcd'[index]}  {cases.NAMES[name]}")
         ax.label_outer()
         thrust = np.asarray(data.critical_thrust)
-        ranges.append(f"{np.nanmin(thrust):.2f} to {np.nanmax(thrust):.2f} ({cases.NAMES[name]})")
+        span = f"P_cr {np.nanmin(thrust):.2f} to {np.nanmax(thrust):.2f}"
+        ranges.append(f"{cases.NAMES[name]}: {span}, {_shares(data)}")
         flat = data.stack(point=(cases.K_R, cases.K_S))
         values = [
             np.asarray(flat[v])
@@ -271,7 +275,8 @@ def chart(number: int, split: float, charts: Maps) -> Drawing:
         f"Critical thrust over the springs of the joint for L₁ = {split:g}, on {len(data[cases.K_R])} by "
         f"{len(data[cases.K_S])} points under each formulation, all on one colour scale with steps that are finest "
         "near the uniform beam's 109.69. Lines part regions of another kind or another pair of modes; divergence is "
-        f"hatched. P_cr from {'; '.join(ranges)}."
+        "hatched. Isolated cells lie in tongues narrower than the grid. Range and number of points: "
+        f"{'; '.join(ranges)}."
     )
     table = Table(
         "Critical thrust P L^2/EI over k_r L/EI and k_s L^3/EI; kind 0 stable, 1 flutter, 2 divergence; modes that "
@@ -301,6 +306,14 @@ def chart(number: int, split: float, charts: Maps) -> Drawing:
 
 def _mathtext(text: str) -> str:
     return text.replace("k_r", "$k_r$").replace("k_s", "$k_s$").replace("L₁", "$L_1$")
+
+
+def _shares(data: "Dataset") -> str:
+    """How many points of a map each kind and pair has, the most frequent first."""
+    names = ("stable", "flutter", "divergence")
+    labels = zip(*(np.asarray(data[v]).astype(int).ravel() for v in ("kind", "mode_low", "mode_high")), strict=True)
+    counts = Counter(f"{names[k]} {low}" + (f"-{high}" if names[k] == "flutter" else "") for k, low, high in labels)
+    return ", ".join(f"{name} {count}" for name, count in counts.most_common())
 
 
 def convergence(found: Mapping[str, Mapping[str, Sequence[tuple[int, float]]]]) -> Drawing:

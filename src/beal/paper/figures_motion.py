@@ -71,12 +71,12 @@ def free_motion(number: int, thrust: float, found: Mapping[Formulation, Motion],
     for ax in (a, b):
         ax.set_xlim(0.0, min(3.0, found["objective"].newmark.time[-1]))
     a.set_ylim(-1.3 * _reach(a), 1.3 * _reach(a))
-    worst = max(motion.difference for motion in found.values())
+    apart = ", ".join(f"{motion.difference:.1e} ({cases.NAMES[name]})" for name, motion in found.items())
     caption = (
         f"Elastic motion of the IMU (x = 0.2 L₁ = 0.12) for {cases.joint_text(cases.RESPONSE_JOINT)}, P = {thrust:g}, "
-        f"no transverse force. {start} Newmark's method (constant mean acceleration, step "
-        f"{found['objective'].newmark.step:.0e}); the largest difference from the exact solution, over all four "
-        f"formulations, is {worst:.1e} of the largest displacement."
+        f"no transverse force. {start} Newmark's method with constant mean acceleration, step "
+        f"{found['objective'].newmark.step:.0e}; the largest difference from the exact solution, over the largest "
+        f"displacement, is {apart}."
     )
     rows: list[tuple[Any, ...]] = []
     for name, motion in found.items():
@@ -148,6 +148,7 @@ def forced_motion(
         for thrust in cases.FORCED_THRUSTS:
             ax.axvline(thrust, color=GREY, linewidth=0.7, linestyle=":")
         ax.set(xlabel="thrust $P L^2/EI$", ylabel="amplitude of $|y|/L$", ylim=(0.0, None))
+        ax.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
         ax.legend(loc="best")
     c.set_title("c  amplitude over thrust, objective")
     d.set_title(f"d  the same, F = {small:g}, all formulations")
@@ -156,9 +157,8 @@ def forced_motion(
     top, bottom = int(np.argmax(sizes[: int(np.argmin(sizes)) + 1])), int(np.argmin(sizes))
     turns = (
         f"Twice the force gives {sweeps['objective'][large][0] / sizes[0]:.3f} times the motion. With thrust the "
-        f"amplitude is largest at P = {thrusts[top]:g} and {sizes[bottom] / sizes[top]:.0%} of that at P = "
-        f"{thrusts[bottom]:g}, where the IMU lies near a node of the loaded vehicle's slow deflection, before it "
-        "grows again towards flutter."
+        f"amplitude first peaks at P = {thrusts[top]:g}, falls to {sizes[bottom] / sizes[top]:.0%} of that at P = "
+        f"{thrusts[bottom]:g}, where the slow deflection at the IMU changes sign, and grows again towards flutter."
     )
     caption = (
         "Elastic displacement of the IMU (x = 0.12) under F sin 2t at the tail, from rest, for "

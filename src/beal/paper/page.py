@@ -75,7 +75,7 @@ def report(
     -------
     str
     """
-    page = Page(TITLE, "Every number, figure and verdict on this page was computed by one command; none was typed in.")
+    page = Page(TITLE, "The figures, tables and verdicts on this page were computed by one command.")
     named = {drawing.name: drawing for drawing in drawings}
 
     def show(name: str) -> None:
@@ -132,7 +132,7 @@ def _abstract(page: Page, verdicts: Sequence[Verdict], found: Findings) -> None:
     page.add("</div>")
     page.add(
         "<nav>"
-        + "".join(
+        + " ".join(
             f'<a href="#{anchor}">{title}</a>'
             for anchor, title in (
                 ("model", "1 Model"),
@@ -289,7 +289,7 @@ def _claims(page: Page, verdicts: Sequence[Verdict], points: int) -> None:
         judged = [_of(verdicts, number, name) for name in cases.ORDER]
         parts = zip(*(verdict.parts for verdict in judged), strict=True)
         rows = [[pretty(same[0].statement), *(part.count for part in same)] for same in parts]
-        page.add(table(("", *(cases.NAMES[name] for name in cases.ORDER)), rows))
+        page.add(table(("", *(cases.NAMES[name] for name in cases.ORDER)), rows, numeric=range(1, 5)))
         notes = [(cases.NAMES[v.formulation], v.note) for v in judged if v.note]
         items = "".join(f"<li><b>{name}.</b> {pretty(note)}</li>" for name, note in notes)
         page.add(f'<ul class="evidence">{items}</ul>' if items else "")
@@ -349,7 +349,7 @@ def _method(page: Page, charts: Maps, points: int) -> None:
         "Journal</i>, 3(3), 486&ndash;494.",
         "Irani, S., Kavianipour, O., 2009. Effects of a flexible joint on instability of a free-free jointed "
         "bipartite beam under the follower and transversal forces. <i>Journal of Zhejiang University SCIENCE A</i>, "
-        "10(9), doi:10.1631/jzus.A0820621.",
+        "doi:10.1631/jzus.A0820621.",
         "Newmark, N. M., 1959. A method of computation for structural dynamics. <i>Journal of the Engineering "
         "Mechanics Division</i>, 85(3), 67&ndash;94.",
     )

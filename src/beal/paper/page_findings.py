@@ -1,5 +1,6 @@
 """The report's section on the printed equations: the argument, and numbers by which to check it."""
 
+import math
 from collections.abc import Callable
 
 from beal.paper import cases, sketches
@@ -72,6 +73,11 @@ def _sign(page: Page, found: Findings) -> None:
 
 def _minus(value: float) -> Markup:
     return Markup(f"{value:.4f}".replace("-", "&minus;")).of_class("n")
+
+
+def _exponent(value: float) -> str:
+    """The power of ten above a small number."""
+    return f"&minus;{-math.ceil(math.log10(value))}" if value > 0 else "&minus;16"
 
 
 def _truncation(page: Page, found: Findings, show: Callable[[str], None]) -> None:
@@ -152,9 +158,10 @@ def _misprints(page: Page, found: Findings) -> None:
         "In Eq. (9) the follower term is <i>φ</i>₂<i>ᵢ</i>&prime;(1 &minus; <i>L</i>₁) <i>φ</i>₂<i>ⱼ</i>(1 &minus; "
         "<i>L</i>₁), with the virtual displacement as the <em>second</em> index; Eq. (8), <b>M</b> <b>q̈</b> + "
         "<b>K</b> <b>q</b> = <b>Q</b>, needs it as the first, so <b>K</b> has to be transposed. A matrix and its "
-        f"transpose have the same roots (largest relative difference here {found.transposed_roots:.0e}), so the maps "
-        f"do not notice. The motions do: at <i>P</i> = {cases.RESPONSE_THRUSTS[13]:g} the displacement of the IMU "
-        f"differs by up to {found.transposed_motion:.0%} of its largest value.",
+        "transpose have the same roots (largest relative difference here below "
+        f"10<sup>{_exponent(found.transposed_roots)}</sup>), so the maps do not notice. The motions do: at <i>P</i> = "
+        f"{cases.RESPONSE_THRUSTS[13]:g} the displacement of the IMU differs by up to {found.transposed_motion:.0%} "
+        "of its largest value.",
         "The upper limit <i>L<sub>i</sub></i> of the first integrals in Eq. (9) should read <i>L</i>₁, and the last "
         "item of Eq. (6) defines <i>F</i>₀, not <i>P</i>₀.",
     )

@@ -36,7 +36,8 @@ class Event:
     modes : tuple of int
         Elastic modes that meet, counted from 1 in order of frequency at this thrust (0: a rigid-body root).
     unstable : int
-        Number of unstable pairs of roots just above the thrust; 0 means that the vehicle is stable again.
+        Number of roots s with a positive real part just above the thrust, two in flutter and one in divergence; 0
+        means that the vehicle is stable again.
     before : int
         The same just below.
     """
@@ -97,7 +98,9 @@ def _double_roots(pencil: Pencil, limit: float) -> Array:
     n = len(root)
     pairs = np.array(list(combinations(range(n), 2)))
     i, j = pairs.T
-    size = np.sqrt(np.abs(np.diag(A0)[i]) + np.abs(np.diag(A0)[j]) + pencil.shift)  # grades the problem like the low roots
+    size = np.sqrt(
+        np.abs(np.diag(A0)[i]) + np.abs(np.diag(A0)[j]) + pencil.shift
+    )  # grades the problem like the low roots
     select = np.zeros((n * n, len(pairs)))
     select[i * n + j, np.arange(len(pairs))] = 1 / size
     select[j * n + i, np.arange(len(pairs))] = -1 / size
@@ -157,9 +160,9 @@ def _polished(pencil: Pencil, thrust: float, kind: str, watched: int, neutral: b
 
 
 def _unstable(pencil: Pencil, thrust: float, watched: int, neutral: bool) -> int:
-    """Number of unstable roots among the watched ones: complex pairs and negative roots."""
+    """Number of exponents s = sqrt(-W) in the right half plane: two of a complex pair W, one of a negative W."""
     low = pencil.roots(thrust)[: watched + pencil.rigid]
     if neutral:
         low = np.delete(low, np.abs(low).argmin())
-    pairs = int(np.sum(low.imag > 1e-6 * np.abs(low)))
-    return pairs + int(np.sum((np.abs(low.imag) <= 1e-6 * np.abs(low)) & (low.real < -ZERO * pencil.shift)))
+    split = np.abs(low.imag) > 1e-6 * np.abs(low)
+    return int(np.sum(split)) + int(np.sum(~split & (low.real < -ZERO * pencil.shift)))

@@ -19,7 +19,8 @@ from beal.stability.pencil import Array, Pencil
 
 STEPS = 30
 FAR = 100.0  # times the guess: Newton's method has lost its way
-ROUNDING = 50 * float(np.finfo(float).eps)  # of sums of tens of products, three transformations deep
+EPS = float(np.finfo(float).eps)
+ROUNDING = 100 * EPS  # of sums of tens of products, three transformations deep
 
 
 @dataclass(frozen=True)
@@ -165,7 +166,7 @@ def _point(
 ) -> CriticalPoint:
     magnitude = _terms(pencil.K0) + abs(thrust) * _terms(pencil.K1) + abs(W) * _terms(pencil.M)
     rounding = ROUNDING * float(np.abs(at.left) @ magnitude @ np.abs(change))
-    uncertainty = rounding / abs(slope) if slope else np.inf
+    uncertainty = rounding / abs(slope) + 4 * EPS * abs(thrust) if slope else np.inf
     return CriticalPoint(float(thrust), float(W), converged, float(uncertainty), at.right, at.left)
 
 
