@@ -16,9 +16,9 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from beal.discretisation import Operators
 
 import beal
+from beal.discretisation import Operators
 from beal.vehicle.paths import with_values
 
 ROTATIONAL, SHEAR = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"

@@ -1,6 +1,6 @@
 """The picture of the README: frequencies over thrust, and the critical thrust over the joint's two springs.
 
-    python examples/overview.py [PICTURE.png]
+python examples/overview.py [PICTURE.png]
 """
 
 import sys

@@ -14,9 +14,7 @@ def test_every_listed_name_exists():
 
 
 def test_nothing_public_is_left_off_the_list():
-    there = {
-        name for name, value in vars(beal).items() if not name.startswith("_") and not is_submodule(value)
-    }
+    there = {name for name, value in vars(beal).items() if not name.startswith("_") and not is_submodule(value)}
     assert there - set(beal.__all__) == set()
 
 

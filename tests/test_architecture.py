@@ -13,9 +13,9 @@ ROOMS = [
     "errors",
     "units",
     "vehicle",
-    "discretise",
+    "discretisation",
     "stability",
-    "response",
+    "motion",
     "study",
     "plot",
     "report",
@@ -115,12 +115,12 @@ def test_nothing_forbidden_is_done(path):
         "from ..stability import spectrum",
         "from .. import load",
         "def f():\n    import beal.study.grid",
-        "if TYPE_CHECKING:\n    from beal.response import Response",
+        "if TYPE_CHECKING:\n    from beal.motion import Response",
     ],
 )
 def test_an_import_against_the_flow_is_seen(code, monkeypatch):
     monkeypatch.setitem(globals(), "KNOWN", KNOWN | {"beal.stability"})
-    assert upward_imports(ast.parse(code), SOURCE / "beal/discretise/somewhere.py") != []
+    assert upward_imports(ast.parse(code), SOURCE / "beal/discretisation/somewhere.py") != []
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_an_import_against_the_flow_is_seen(code, monkeypatch):
     ],
 )
 def test_an_import_with_the_flow_passes(code):
-    assert upward_imports(ast.parse(code), SOURCE / "beal/discretise/somewhere.py") == []
+    assert upward_imports(ast.parse(code), SOURCE / "beal/discretisation/somewhere.py") == []
 
 
 @pytest.mark.parametrize(
@@ -151,7 +151,7 @@ def test_an_import_with_the_flow_passes(code):
     ],
 )
 def test_what_is_forbidden_is_seen(code):
-    assert len(forbidden(ast.parse(code), SOURCE / "beal/discretise/somewhere.py")) == 1
+    assert len(forbidden(ast.parse(code), SOURCE / "beal/discretisation/somewhere.py")) == 1
 
 
 def test_the_command_line_may_print_and_use_the_whole_package():

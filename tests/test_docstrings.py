@@ -41,9 +41,7 @@ def is_function(value: object) -> bool:
 
 
 PUBLIC = dict(pair for name in beal.__all__ for pair in public(name, getattr(beal, name)))
-FUNCTIONS = {
-    name: value for name, value in PUBLIC.items() if is_function(value) and "." not in value.__qualname__
-}
+FUNCTIONS = {name: value for name, value in PUBLIC.items() if is_function(value) and "." not in value.__qualname__}
 
 
 def sentence_problem(doc: str | None) -> str:
@@ -84,9 +82,7 @@ def test_examples_in_docstrings_are_true(name):
     assert doctest.testmod(module, optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE).failed == 0
 
 
-@pytest.mark.parametrize(
-    "doc", [None, "", "No full stop", "One. Two.", "Run on\nand on.", "A line.\nAnother."]
-)
+@pytest.mark.parametrize("doc", [None, "", "No full stop", "One. Two.", "Run on\nand on.", "A line.\nAnother."])
 def test_a_poor_first_line_is_seen(doc):
     assert sentence_problem(doc) != ""
 

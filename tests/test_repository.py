@@ -34,9 +34,7 @@ def repository_files() -> list[Path]:
     """What is or would be committed; without git, all outside hidden and generated folders."""
     if (ROOT / ".git").exists():
         listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-        names = subprocess.run(listing, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split(
-            "\0"
-        )
+        names = subprocess.run(listing, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
     else:
         generated = {"out", "build", "dist", "__pycache__"}
         paths = (path.relative_to(ROOT) for path in ROOT.rglob("*"))
@@ -55,9 +53,7 @@ def test_make_targets_in_the_readme_exist():
 
 def test_commands_in_the_readme_exist():
     beal_command = Path(sys.executable).with_name("beal")
-    runs = {
-        name: subprocess.run([beal_command, name, "--help"], capture_output=True) for name in commands("beal")
-    }
+    runs = {name: subprocess.run([beal_command, name, "--help"], capture_output=True) for name in commands("beal")}
     assert [name for name, run in runs.items() if run.returncode != 0] == []
 
 
@@ -87,11 +83,7 @@ def test_no_file_names_a_place_on_somebodys_machine():
         content = path.read_bytes()
         if b"\0" not in content:
             lines = content.decode("utf-8").splitlines()
-            found += [
-                f"{path.relative_to(ROOT)}:{n}"
-                for n, line in enumerate(lines, 1)
-                if MACHINE_PATH.search(line)
-            ]
+            found += [f"{path.relative_to(ROOT)}:{n}" for n, line in enumerate(lines, 1) if MACHINE_PATH.search(line)]
     assert found == []
 
 

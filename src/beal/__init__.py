@@ -3,16 +3,16 @@
 Names are imported when they are first used, so that the command answers at once.
 """
 
-from importlib import import_module
-from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+import typing as _typing
+from importlib import import_module as _import_module
+from importlib.metadata import version as _version
 
-if TYPE_CHECKING:
+if _typing.TYPE_CHECKING:
     from beal import plot
-    from beal.discretise.build import discretise
-    from beal.discretise.operators import Operators
+    from beal.discretisation.build import discretise
+    from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
-    from beal.response import Response, response
+    from beal.motion import ModeShape, Release, Response, Samples, growth_rate, response
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
     from beal.vehicle.vehicle import Vehicle
 
-__version__ = version("beal")
+__version__ = _version("beal")
 
 _HOMES = {
     "BealError": "beal.errors",
@@ -32,10 +32,13 @@ _HOMES = {
     "Event": "beal.stability.complete",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
+    "ModeShape": "beal.motion",
     "ModelError": "beal.errors",
-    "Operators": "beal.discretise.operators",
+    "Operators": "beal.discretisation.operators",
     "PointMass": "beal.vehicle.parts",
-    "Response": "beal.response",
+    "Release": "beal.motion",
+    "Response": "beal.motion",
+    "Samples": "beal.motion",
     "Sensor": "beal.vehicle.parts",
     "Spectrum": "beal.stability.spectrum",
     "Stage": "beal.vehicle.parts",
@@ -43,15 +46,16 @@ _HOMES = {
     "Thrust": "beal.vehicle.parts",
     "ThrustCurve": "beal.stability.curve",
     "Vehicle": "beal.vehicle.vehicle",
+    "growth_rate": "beal.motion",
     "catalog": "beal.vehicle.catalog",
     "critical_events": "beal.stability.critical",
     "critical_thrust": "beal.stability.critical",
-    "discretise": "beal.discretise.build",
+    "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
     "load": "beal.vehicle.file",
     "loads": "beal.vehicle.file",
     "plot": "beal.plot",
-    "response": "beal.response",
+    "response": "beal.motion",
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
     "thrust_curve": "beal.stability.curve",
@@ -64,10 +68,13 @@ __all__ = [
     "Event",
     "Force",
     "Joint",
+    "ModeShape",
     "ModelError",
     "Operators",
     "PointMass",
+    "Release",
     "Response",
+    "Samples",
     "Sensor",
     "Spectrum",
     "Stage",
@@ -80,6 +87,7 @@ __all__ = [
     "critical_thrust",
     "discretise",
     "dumps",
+    "growth_rate",
     "load",
     "loads",
     "plot",
@@ -90,10 +98,10 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module 'beal' has no attribute {name!r}")
-    module = import_module(_HOMES[name])
+    module = _import_module(_HOMES[name])
     value = getattr(module, name, module)
     globals()[name] = value
     return value

@@ -14,7 +14,7 @@ import pytest
 import xarray
 
 from beal.cli.output import digits, emit, new_file, quantity
-from beal.discretise import FORMULATIONS
+from beal.discretisation import FORMULATIONS
 from beal.errors import ModelError
 from beal.vehicle import Thrust, catalog
 from beal.vehicle.file import load, loads

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from beal.discretise import FORMULATIONS
+from beal.discretisation import FORMULATIONS
 from beal.paper.reproduce import reproduce
 
 POINTS = 4

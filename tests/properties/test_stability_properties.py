@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.spectrum import spectrum
 from beal.vehicle.parts import Joint, PointMass, Stage, Support, Thrust

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beal.discretise import FORMULATIONS
-from beal.discretise.joint_modes import joint_modes
+from beal.discretisation import FORMULATIONS
+from beal.discretisation.joint_modes import joint_modes
 from beal.paper import cases
 from beal.paper.evidence import critical, forced_amplitude, growth, motion
 from beal.paper.findings import AXES, _couple

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.errors import ModelError
 from beal.stability.critical import critical_events, critical_thrust, default_limit
 from beal.vehicle import catalog

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.errors import ModelError
 from beal.stability.pencil import pencil, reduced
 from beal.stability.spectrum import spectrum

@@ -6,9 +6,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from beal import plot
-from beal.discretise import discretise
-from beal.response import ModeShape
-from beal.response import response as solve
+from beal.discretisation import discretise
+from beal.motion import ModeShape
+from beal.motion import response as solve
 from beal.stability.critical import critical_thrust
 from beal.stability.curve import thrust_curve
 from beal.stability.spectrum import spectrum

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from beal.discretise import discretise
+from beal.discretisation import discretise
 from beal.errors import ConvergenceError, ModelError
-from beal.response import CoarseStepWarning, ModeShape, Release, Response, Samples, growth_rate, response, signals
-from beal.response.histories import turning_points
-from beal.response.newmark import largest_step, newmark
-from beal.response.reduction import reduce
+from beal.motion import CoarseStepWarning, ModeShape, Release, Response, Samples, growth_rate, response, signals
+from beal.motion.histories import turning_points
+from beal.motion.newmark import largest_step, newmark
+from beal.motion.reduction import reduce
 from beal.vehicle import Force, Joint, Pulse, Sensor, Sine, Stage, Step, Support, Table, Thrust, Vehicle, catalog
 
 IMU = Sensor(name="imu", station=0.12)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.errors import ModelError
 from beal.stability.curve import thrust_curve
 from beal.stability.spectrum import spectrum

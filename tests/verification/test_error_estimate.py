@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.stability.critical import critical_thrust
 from beal.stability.double_root import coalescence, divergence
 from beal.stability.pencil import pencil, reduced

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Legendre
 
-from beal.discretise.joint_modes import JointModes, joint_modes
+from beal.discretisation.joint_modes import JointModes, joint_modes
 from beal.errors import ModelError
 
 INF = math.inf

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.stability.critical import critical_thrust
 from beal.stability.pencil import pencil
 from beal.stability.spectrum import spectrum

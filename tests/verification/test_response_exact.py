@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from beal.discretise import discretise
-from beal.response import ModeShape, Release, Response, growth_rate, response
-from beal.response.exact import exact
-from beal.response.newmark import newmark
-from beal.response.signals import samples
+from beal.discretisation import discretise
+from beal.motion import ModeShape, Release, Response, growth_rate, response
+from beal.motion.exact import exact
+from beal.motion.newmark import newmark
+from beal.motion.signals import samples
 from beal.vehicle.parts import Force, Joint, Pulse, Sensor, Sine, Stage, Step, Table, Thrust
 from beal.vehicle.vehicle import Vehicle
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from beal.discretise.build import discretise
+from beal.discretisation.build import discretise
 from beal.stability.critical import critical_thrust
 from beal.stability.spectrum import spectrum
 from beal.vehicle.vehicle import Vehicle

@@ -2,8 +2,8 @@
 
 import pytest
 
-from beal.discretise.build import discretise
-from beal.discretise.joint_modes import joint_modes
+from beal.discretisation.build import discretise
+from beal.discretisation.joint_modes import joint_modes
 from beal.stability.critical import critical_thrust
 from beal.stability.pencil import pencil
 from beal.stability.spectrum import spectrum

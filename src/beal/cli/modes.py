@@ -72,7 +72,7 @@ def _converged(vehicle: "Vehicle", thrust: float, count: int, formulation: str) 
     """The modes, and how much each frequency changed in the last refinement (None for a few modes by definition)."""
     import numpy as np
 
-    from beal.discretise.build import RITZ, discretise
+    from beal.discretisation.build import RITZ, discretise
     from beal.stability.spectrum import spectrum
 
     if formulation in RITZ:

@@ -10,7 +10,7 @@ from beal.cli.output import emit, new_file, note, show_table, write_columns
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
-    from beal.response import Initial, Response
+    from beal.motion import Initial, Response
 
 HISTORIES = ("displacement", "rate", "slope")
 INITIAL = "expected mode:NUMBER:AMPLITUDE or release:DEFLECTION[:STATION]"
@@ -30,8 +30,8 @@ def response(
     as_json: AsJson = False,
 ) -> None:
     """Motion at the sensors under a constant thrust and the transverse forces."""
-    from beal.discretise.build import discretise
-    from beal.response import response as motion_of
+    from beal.discretisation.build import discretise
+    from beal.motion import response as motion_of
     from beal.stability.spectrum import spectrum
     from beal.vehicle.file import load
 
@@ -69,7 +69,7 @@ def response(
 
 
 def _initial(text: str) -> "Initial":
-    from beal.response import ModeShape, Release
+    from beal.motion import ModeShape, Release
 
     kind, *numbers = text.split(":")
     try:

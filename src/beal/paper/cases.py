@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from beal.discretise.build import Formulation
+from beal.discretisation.build import Formulation
 from beal.vehicle.catalog import tsto
 from beal.vehicle.parts import Force, Sine
 from beal.vehicle.vehicle import Vehicle

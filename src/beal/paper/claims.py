@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beal.discretise.build import Formulation
+from beal.discretisation.build import Formulation
 from beal.paper import cases
 from beal.paper.evidence import (
     ABOVE,

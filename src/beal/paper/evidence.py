@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from beal.discretise import discretise
-from beal.discretise.build import Formulation
+from beal.discretisation import discretise
+from beal.discretisation.build import Formulation
+from beal.motion import ModeShape, Response, growth_rate, response
 from beal.paper import cases
-from beal.response import ModeShape, Response, growth_rate, response
 from beal.stability.critical import CriticalThrust, critical_thrust
 from beal.stability.curve import ThrustCurve, thrust_curve
 from beal.study.map import stability_map

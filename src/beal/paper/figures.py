@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from beal import plot
-from beal.discretise import discretise
-from beal.discretise.build import Formulation
-from beal.discretise.joint_modes import joint_modes
+from beal.discretisation import discretise
+from beal.discretisation.build import Formulation
+from beal.discretisation.joint_modes import joint_modes
 from beal.paper import cases
 from beal.paper.evidence import Curve, Maps
 from beal.plot.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION

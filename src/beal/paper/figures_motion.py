@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from beal import plot
-from beal.discretise.build import Formulation
+from beal.discretisation.build import Formulation
 from beal.paper import cases
 from beal.paper.evidence import Array, Motion
 from beal.paper.figures import COLORS, DASHES, Drawing, Table, panels

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 import scipy.linalg
 
-from beal.discretise import discretise
-from beal.discretise.basis import Combined
-from beal.discretise.build import Formulation
-from beal.discretise.joint_modes import joint_modes
-from beal.discretise.operators import Operators
+from beal.discretisation import discretise
+from beal.discretisation.basis import Combined
+from beal.discretisation.build import Formulation
+from beal.discretisation.joint_modes import joint_modes
+from beal.discretisation.operators import Operators
+from beal.motion import response
 from beal.paper import cases
 from beal.paper.evidence import START
-from beal.response import response
 from beal.stability.critical import critical_thrust
 from beal.stability.spectrum import spectrum
 from beal.vehicle.catalog import tsto

@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from beal.discretise.build import Formulation
+from beal.discretisation.build import Formulation
 from beal.paper import cases, sketches
 from beal.paper.claims import Verdict
 from beal.paper.evidence import Maps, critical

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from beal.discretise.build import Formulation
+from beal.discretisation.build import Formulation
 from beal.paper import cases, figures
 from beal.paper.claims import Verdict, judge
 from beal.paper.evidence import FORCED_DURATION, FORCED_SWEEP, FREE_DURATION, Maps, Progress, curves, maps, motion

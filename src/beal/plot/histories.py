@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING, Any, Literal
 
+from beal.motion import Response
 from beal.plot.style import BLUE, GREY, VERMILION, axes
-from beal.response import Response
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from beal.discretise.operators import Operators
+from beal.discretisation.operators import Operators
 from beal.plot.style import CYCLE, GREY, axes
 from beal.stability.spectrum import Spectrum
 

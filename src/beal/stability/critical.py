@@ -11,10 +11,10 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 from threadpoolctl import ThreadpoolController
 
-from beal.discretise.axial import axial_force
-from beal.discretise.basis import segments
-from beal.discretise.build import RITZ, BasisName, Formulation, discretise
-from beal.discretise.operators import Operators
+from beal.discretisation.axial import axial_force
+from beal.discretisation.basis import segments
+from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
+from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.complete import Event, events
 from beal.stability.double_root import CriticalPoint, coalescence, divergence

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from beal.discretise.build import RITZ, Formulation, discretise
-from beal.discretise.operators import Operators
+from beal.discretisation.build import RITZ, Formulation, discretise
+from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.critical import default_limit, one_thread
 from beal.stability.pencil import Array, ComplexArray, pencil

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from beal.discretise.operators import Operators
+from beal.discretisation.operators import Operators
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

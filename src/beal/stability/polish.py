@@ -8,6 +8,7 @@ rigid joint is as good as a soft one.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beal.stability.pencil import Array, Pencil
 
@@ -28,18 +29,21 @@ class SpringPencil:
     """
 
     pencil: Pencil
-    columns: Array
+    columns: NDArray[np.intp]
     references: Array
 
 
-def polished(springs: SpringPencil, stiffnesses: Array, P: Array, W: Array, flutter: Array) -> tuple[Array, Array]:
+def polished(
+    springs: SpringPencil, stiffnesses: Array, P: Array, W: Array, flutter: NDArray[np.bool_]
+) -> tuple[Array, Array]:
     """Thrust and W of coalescences (where ``flutter``) or divergences next to good guesses.
 
     Parameters
     ----------
     springs : SpringPencil
     stiffnesses : ndarray, shape (vehicles, springs)
-    P, W, flutter : ndarray, shape (vehicles,)
+    P, W : ndarray, shape (vehicles,)
+    flutter : ndarray of bool, shape (vehicles,)
 
     Returns
     -------
@@ -74,7 +78,7 @@ def _null_vectors(A: Array) -> tuple[Array, Array]:
     return left, right
 
 
-def _step(A: Array, K1: Array, M: Array, b: Array, c: Array, flutter: Array) -> tuple[Array, Array]:
+def _step(A: Array, K1: Array, M: Array, b: Array, c: Array, flutter: NDArray[np.bool_]) -> tuple[Array, Array]:
     """Newton step of g = g_W = 0, or of g(P, 0) = 0."""
     count, n, _ = A.shape
     bordered = np.zeros((count, n + 1, n + 1))

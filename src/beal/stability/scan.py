@@ -159,7 +159,7 @@ def _nodes(table: Table, weights: Array, thrusts: Array) -> _Nodes:
     return _Nodes(W, heights / scale, slopes / scale, sound)
 
 
-def _value(coefficients: Array, x: Array) -> Array:
+def _value(coefficients: NDArray[np.floating], x: Array) -> Array:
     """Chebyshev series along the last axis at one x each (Clenshaw)."""
     b1 = b2 = np.zeros_like(x)
     for c in np.moveaxis(coefficients, -1, 0)[:0:-1]:
@@ -224,7 +224,7 @@ def _newton(table: Table, weights: Array, P: Array, W: Array, flutter: Booleans)
             P, W = np.where(np.isfinite(P), P, table.low), np.where(np.isfinite(W), W, 0.0)
             if converged.all():
                 break
-    inside = (P > table.low) & (P < table.high) & (W >= 0) & (W < table.top)
+    inside = (table.low < P) & (table.high > P) & (W >= 0) & (table.top > W)
     return P, W, converged & inside
 
 

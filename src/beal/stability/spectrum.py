@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 
-from beal.discretise.operators import Operators
+from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.pencil import Array, ComplexArray, Pencil, pencil
 from beal.stability.zero_roots import ZERO
@@ -71,7 +71,7 @@ def spectrum(operators: Operators, thrust: float = 0.0, count: int = 6) -> Spect
 
     Examples
     --------
-    >>> from beal.discretise.build import discretise
+    >>> from beal.discretisation.build import discretise
     >>> from beal.vehicle import catalog
     >>> spectrum(discretise(catalog.beal(), order=12), thrust=80.0, count=2).angular_frequency.round(5).tolist()
     [11.63004, 42.60333]

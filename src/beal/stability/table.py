@@ -4,8 +4,8 @@ With A(P, W) = K(P) - W M of the vehicle without those springs and J the rows th
 
     D = det(A + J^T k J) = sum over subsets S of springs of prod(k_S) det(A) det((J A^-1 J^T)_S),
 
-multilinear in the stiffnesses. Each coefficient is an entire function of thrust and W = omega^2, so a Chebyshev table of
-modest degree holds it to nearly the precision of the machine, and a vehicle costs a few products instead of an
+multilinear in the stiffnesses. Each coefficient is an entire function of thrust and W = omega^2, so a Chebyshev table
+of modest degree holds it to nearly the precision of the machine, and a vehicle costs a few products instead of an
 eigenvalue problem for every thrust.
 """
 
@@ -17,8 +17,8 @@ from typing import Literal
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from beal.discretise import Formulation, discretise
-from beal.discretise.operators import Operators
+from beal.discretisation import Formulation, discretise
+from beal.discretisation.operators import Operators
 from beal.stability.pencil import Array, pencil, reduced
 from beal.stability.polish import SpringPencil
 from beal.vehicle.paths import with_values
@@ -110,7 +110,7 @@ def tables(
     values = np.linalg.det(A) * np.array([_minor(inverse, subset) for subset in range(2 ** len(springs))])
     in_W = np.linalg.solve(chebyshev.chebvander(x_W, degrees.W), np.swapaxes(values, 1, 2))
     coefficients = np.linalg.solve(chebyshev.chebvander(x_P, degrees.thrust), np.swapaxes(in_W, 1, 2))
-    return Table(panel[0], panel[1], top, coefficients, springs_of)
+    return Table(panel[0], panel[1], top, np.asarray(coefficients, dtype=np.float64), springs_of)
 
 
 def _springs(operators: Operators, springs: Sequence[Spring]) -> SpringPencil | None:

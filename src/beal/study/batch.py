@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from beal.discretise import Formulation
+from beal.discretisation import Formulation
 from beal.errors import ModelError
 from beal.stability.critical import default_limit, one_thread
 from beal.stability.scan import DIVERGENCE, FLUTTER, STABLE, UNDECIDED, scan

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
-from beal.discretise import Formulation
+from beal.discretisation import Formulation
 from beal.errors import ModelError
 from beal.study.study import Solve, Study, spaced
 from beal.vehicle.base import Part, problems, si

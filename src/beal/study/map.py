@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from beal.discretise import Formulation
+from beal.discretisation import Formulation
 from beal.errors import ModelError
 from beal.study.solve import solve_block
 from beal.study.store import Arrays, Block, Store, attributes, blocks, empty, variable_attributes
@@ -156,9 +156,7 @@ def _ignore_interrupt() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _run(
-    study: Study, todo: Sequence[Block], executor: Executor | None, keep: Callable[[Block, Arrays], None]
-) -> None:
+def _run(study: Study, todo: Sequence[Block], executor: Executor | None, keep: Callable[[Block, Arrays], None]) -> None:
     """Solves blocks here or in the executor's workers; results are kept in this process as they come."""
     if executor is None:
         for block in todo:

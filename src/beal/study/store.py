@@ -156,8 +156,6 @@ class Store:
             ) from None
 
 
-
-
 def _short(text: str | None) -> str:
     if text is None:
         return "absent"

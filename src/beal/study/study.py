@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from beal.discretise import FORMULATIONS, Formulation
+from beal.discretisation import FORMULATIONS, Formulation
 from beal.errors import ModelError
 from beal.vehicle.file import dumps
 from beal.vehicle.paths import with_values
@@ -100,8 +100,5 @@ class Study:
 
 def spaced(start: float, stop: float, points: int, spacing: str) -> tuple[float, ...]:
     """Evenly spaced values, linearly or in their logarithm, both ends included and exact."""
-    if spacing == "log":
-        values = np.geomspace(start, stop, points)
-    else:
-        values = np.linspace(start, stop, points)
-    return tuple(float(value) for value in values)
+    space = np.geomspace if spacing == "log" else np.linspace
+    return tuple(float(value) for value in space(start, stop, points))

@@ -1,6 +1,6 @@
 """Where integrals become matrices: bases, axial force, assembly."""
 
-from beal.discretise.build import FORMULATIONS, Formulation, discretise
-from beal.discretise.operators import Operators
+from beal.discretisation.build import FORMULATIONS, Formulation, discretise
+from beal.discretisation.operators import Operators
 
 __all__ = ["FORMULATIONS", "Formulation", "Operators", "discretise"]

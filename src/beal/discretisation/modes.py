@@ -4,8 +4,8 @@ from functools import cached_property
 
 import numpy as np
 
-from beal.discretise.basis import Array, Basis, segments
-from beal.discretise.joint_modes import JointSign, joint_modes
+from beal.discretisation.basis import Array, Basis, segments
+from beal.discretisation.joint_modes import JointSign, joint_modes
 from beal.vehicle.vehicle import Vehicle
 
 

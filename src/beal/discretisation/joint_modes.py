@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beal.discretise.joint_wavenumbers import Array, JointedBeam, wavenumbers
+from beal.discretisation.joint_wavenumbers import Array, JointedBeam, wavenumbers
 from beal.errors import ModelError
 
 JointSign = Literal["natural", "printed"]

@@ -6,15 +6,15 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from beal.discretise import discretise
-from beal.discretise.operators import Operators
+from beal.discretisation import discretise
+from beal.discretisation.operators import Operators
 from beal.errors import ModelError
-from beal.response import signals
-from beal.response.exact import exact
-from beal.response.histories import Response
-from beal.response.initial import Initial
-from beal.response.newmark import check_parameters, largest_step, newmark
-from beal.response.reduction import ReducedEquations, reduce
+from beal.motion import signals
+from beal.motion.exact import exact
+from beal.motion.histories import Response
+from beal.motion.initial import Initial
+from beal.motion.newmark import check_parameters, largest_step, newmark
+from beal.motion.reduction import ReducedEquations, reduce
 from beal.vehicle.vehicle import Vehicle
 
 Method = Literal["newmark", "exact"]
@@ -90,7 +90,7 @@ def response(
 
     Examples
     --------
-    >>> from beal.response import Release
+    >>> from beal.motion import Release
     >>> from beal.vehicle import Sensor, catalog
     >>> column = catalog.beck().model_copy(update={"sensors": (Sensor(name="tip", station=1.0),)})
     >>> bent = Release(0.01, station=1.0)  # mostly the first mode, which is back after its period

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from beal.errors import ModelError
-from beal.response.march import march
+from beal.motion.march import march
 
 Array = NDArray[np.float64]
 

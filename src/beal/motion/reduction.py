@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh, eigvals, ordqz
 
-from beal.discretise.operators import Operators
+from beal.discretisation.operators import Operators
 
 Array = NDArray[np.float64]
 APART = 1.01  # ratio of |mu| above which two modes may be separated; closer ones are kept or left out together

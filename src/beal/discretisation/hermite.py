@@ -5,7 +5,7 @@ is linear on each element. Nodal deflections and slopes as coordinates lose (len
 elements' curvatures span the same space and lose none.
 """
 
-from beal.discretise.legendre import LegendreBasis
+from beal.discretisation.legendre import LegendreBasis
 from beal.vehicle.vehicle import Vehicle
 
 

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beal.discretise.basis import Basis
+from beal.discretisation.basis import Basis
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from beal.discretise.basis import Array, Segment
+from beal.discretisation.basis import Array, Segment
 from beal.vehicle.vehicle import Vehicle
 
 

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
-from beal.discretise.operators import Operators
+from beal.discretisation.operators import Operators
 from beal.errors import ModelError
-from beal.response.reduction import free_modes
+from beal.motion.reduction import free_modes
 
 Array = NDArray[np.float64]
 STATIONS = 401  # among which the largest deflection is looked for
@@ -37,7 +37,7 @@ class ModeShape:
 
     Examples
     --------
-    >>> from beal.discretise import discretise
+    >>> from beal.discretisation import discretise
     >>> from beal.vehicle import catalog
     >>> beam = discretise(catalog.beal())
     >>> q, rate = ModeShape(2, amplitude=0.01).coordinates(beam)
@@ -84,7 +84,7 @@ class Release:
 
     Examples
     --------
-    >>> from beal.discretise import discretise
+    >>> from beal.discretisation import discretise
     >>> from beal.vehicle import catalog
     >>> column = discretise(catalog.beck())  # x^2 (3 - x) / 2 under a force at the tip
     >>> q, rate = Release(1.0, station=1.0).coordinates(column)
@@ -135,7 +135,7 @@ class Samples:
 
     Examples
     --------
-    >>> from beal.discretise import discretise
+    >>> from beal.discretisation import discretise
     >>> from beal.vehicle import catalog
     >>> beam = discretise(catalog.beal())
     >>> q, rate = Samples([0.0, 0.5, 1.0], [0.0, 0.1, 0.2]).coordinates(beam)

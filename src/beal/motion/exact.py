@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from beal.response import signals
-from beal.response.march import march
+from beal.motion import signals
+from beal.motion.march import march
 from beal.vehicle.parts import Signal
 
 Array = NDArray[np.float64]

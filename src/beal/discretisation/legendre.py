@@ -10,8 +10,8 @@ from functools import cache, lru_cache
 import numpy as np
 from numpy.polynomial import legendre
 
-from beal.discretise.basis import Array, Basis, segments
-from beal.discretise.chain import Chain
+from beal.discretisation.basis import Array, Basis, segments
+from beal.discretisation.chain import Chain
 from beal.vehicle.vehicle import Vehicle
 
 

@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from beal.discretise.axial import axial_force, axial_force_in_joint
-from beal.discretise.basis import Array, Basis, Combined
-from beal.discretise.operators import Operators
+from beal.discretisation.axial import axial_force, axial_force_in_joint
+from beal.discretisation.basis import Array, Basis, Combined
+from beal.discretisation.operators import Operators
 from beal.vehicle.vehicle import Vehicle
 
 

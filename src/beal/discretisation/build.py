@@ -4,12 +4,12 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from beal.discretise.assembly import assemble
-from beal.discretise.basis import Basis
-from beal.discretise.hermite import HermiteBasis
-from beal.discretise.legendre import LegendreBasis
-from beal.discretise.modes import ModeBasis
-from beal.discretise.operators import Operators
+from beal.discretisation.assembly import assemble
+from beal.discretisation.basis import Basis
+from beal.discretisation.hermite import HermiteBasis
+from beal.discretisation.legendre import LegendreBasis
+from beal.discretisation.modes import ModeBasis
+from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.vehicle.vehicle import Vehicle
 

@@ -1,8 +1,8 @@
 """Operators and excitation to time histories: Newmark's method and the exact solution."""
 
-from beal.response.histories import Response, growth_rate
-from beal.response.initial import Initial, ModeShape, Release, Samples
-from beal.response.solve import CoarseStepWarning, response
+from beal.motion.histories import Response, growth_rate
+from beal.motion.initial import Initial, ModeShape, Release, Samples
+from beal.motion.solve import CoarseStepWarning, response
 
 __all__ = [
     "CoarseStepWarning",
