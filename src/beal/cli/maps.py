@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beal.cli.options import AsJson
-from beal.cli.output import check_folder, emit, note
+from beal.cli.output import check_folder, emit, make_folder, note
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def reproduce(
     as_json: AsJson = False,
 ) -> None:
     """Regenerate Irani & Kavianipour (2009): every figure, its data, every claim, and a report."""
-    check_folder(output)
+    make_folder(output)
     try:
         from beal.paper.reproduce import reproduce as run
     except ModuleNotFoundError as error:

@@ -136,3 +136,17 @@ def write_columns(file: TextIO, columns: dict[str, Any]) -> None:
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(columns)
     writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
+
+
+def make_folder(path: Path) -> None:
+    """Make a result folder and those above it.
+
+    Raises
+    ------
+    ModelError
+        If it cannot be made.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ModelError(f"cannot be written: {error.strerror}; give the name of a folder", str(path)) from None
