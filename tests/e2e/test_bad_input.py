@@ -205,7 +205,12 @@ def test_a_scheduler_is_refused(beal_here, written):
     assert "--scheduler: clusters are not supported" in message
 
 
-@pytest.mark.parametrize("output", ["model.toml", "nowhere/out", "/dev/null/out", "/proc/out"])
+@pytest.mark.parametrize("output", ["model.toml", "model.toml/out", "/dev/null/out", "/proc/out"])
 def test_a_reproduction_that_cannot_be_written_is_refused(beal, written, output):
     written(GOOD)
-    assert output in refusal(beal("reproduce", "-o", output, "--points", "2"))
+    assert output in refusal(beal("reproduce", "-o", output, "--points", "4"))
+
+
+def test_a_reproduction_on_too_coarse_a_grid_is_refused(beal, tmp_path):
+    assert "--points" in refusal(beal("reproduce", "-o", "out", "--points", "2"))
+    assert not (tmp_path / "out").exists()

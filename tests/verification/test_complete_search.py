@@ -8,7 +8,7 @@ from beal.vehicle.parts import Joint, PointMass, Stage
 from beal.vehicle.vehicle import Vehicle
 from properties.vehicles import random_vehicles
 
-COUNT = 120
+COUNT = 240
 
 
 @pytest.mark.parametrize("part", range(4))

@@ -18,7 +18,7 @@ from beal.vehicle import catalog
 from beal.vehicle.vehicle import Vehicle
 from properties.vehicles import random_vehicles
 
-COUNT, FINEST = 120, 24
+COUNT, FINEST = 500, 24
 
 
 def reference(vehicle: Vehicle, kind: str, thrust: float, omega: float) -> tuple[float, float]:
@@ -53,6 +53,12 @@ CASES = [(None, "legendre", COUNT), (1e-4, "legendre", COUNT), (1e-6, "hermite",
 def test_true_error_lies_below_the_estimate(tolerance, basis, count):
     error, estimate, rounding = solved(tolerance, basis, count).T
     assert np.mean(error <= estimate + rounding) >= 0.99
+
+
+def test_estimate_of_converged_polynomials_stays_within_a_hundred_times_the_error():
+    error, estimate, _ = solved(None, "legendre", COUNT).T
+    assert np.mean(error <= estimate) >= 0.99
+    assert np.median(estimate / np.maximum(error, 1e-16)) < 100
 
 
 @pytest.mark.parametrize(("tolerance", "basis", "count"), CASES[2:])

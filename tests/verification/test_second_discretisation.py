@@ -9,7 +9,7 @@ from beal.stability.spectrum import spectrum
 from beal.vehicle.vehicle import Vehicle
 from properties.vehicles import random_vehicles
 
-PART = 15
+PART = 50
 
 
 def frequencies(vehicle: Vehicle, thrust: float, basis: str) -> np.ndarray:

@@ -67,7 +67,7 @@ def _counts(found: "Dataset") -> dict[str, Any]:
 
 def reproduce(
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder.", show_default=False)],
-    points: Annotated[int | None, typer.Option(metavar="N", help="Points per axis of each map.", min=2)] = None,
+    points: Annotated[int | None, typer.Option(metavar="N", help="Points per axis of each map.", min=4)] = None,
     as_json: AsJson = False,
 ) -> None:
     """Regenerate Irani & Kavianipour (2009): every figure, its data, every claim, and a report."""

@@ -78,7 +78,7 @@ class Verdict:
     @property
     def verdict(self) -> str:
         """``holds``, ``fails`` or ``holds in part``, by the rule of this module."""
-        shares = [part.borne_out / part.cases for part in self.parts]
+        shares = [part.borne_out / part.cases for part in self.parts if part.cases]
         if min(shares) == 1:
             return "holds"
         return "holds in part" if sum(shares) >= len(shares) / 2 else "fails"

@@ -18,8 +18,10 @@ from beal.stability.pencil import Array, Pencil
 from beal.stability.ridge import Kind, meeting_pair
 from beal.stability.zero_roots import ZERO, rigid_body_root
 
-NEARLY_REAL = 1e-3  # relative imaginary part of a thrust up to which a real critical point is looked for beside it
+NEARLY_REAL = 3e-2  # relative imaginary part of a thrust up to which a real critical point is looked for beside it
 SAME = 1e-9
+NEXT = 3e-2  # relative distance up to which a polished thrust is that of its guess
+ALL_BUT_ZERO = 1e-3  # |W| of two roots that meet, below this share of the shift, beside a zero root
 
 
 @dataclass(frozen=True)
@@ -140,21 +142,19 @@ def _nearly_real(shares: Array, limit: float) -> Array:
 
 def _polished(pencil: Pencil, thrust: float, kind: str, watched: int, neutral: bool) -> list[tuple[float, float, Kind]]:
     """Critical points next to an approximate thrust: (thrust, W, kind)."""
+    points: list[tuple[float, float, Kind]] = []
+    if kind == "divergence" or neutral:  # a root that meets the zero one of a rigid-body motion diverges
+        point = divergence(pencil, thrust, neutral)
+        if point.converged and abs(point.thrust - thrust) < NEXT * thrust:
+            points.append((point.thrust, 0.0, "divergence"))
     if kind == "divergence":
-        point = divergence(pencil, thrust)
-        return [(point.thrust, 0.0, "divergence")] if point.converged else []
+        return points
     low = pencil.roots(thrust)[: watched + pencil.rigid + 1]
     closest = np.argsort(np.abs(np.diff(low)) / (np.abs(low[1:]) + np.abs(low[:-1]) + pencil.shift))[:2]
-    points: list[tuple[float, float, Kind]] = []
     for i in closest:
-        W = float((low[i] + low[i + 1]).real / 2)
-        if neutral and abs(W) < 1e-2 * pencil.shift:
-            point = divergence(pencil, thrust, neutral)
-            if point.converged:
-                points.append((point.thrust, 0.0, "divergence"))
-                continue
-        point = coalescence(pencil, thrust, W)
-        if point.converged and abs(point.thrust - thrust) < 1e-2 * thrust:
+        point = coalescence(pencil, thrust, float((low[i] + low[i + 1]).real / 2))
+        drifts = neutral and abs(point.W) < ALL_BUT_ZERO * pencil.shift
+        if point.converged and not drifts and abs(point.thrust - thrust) < NEXT * thrust:
             points.append((point.thrust, point.W, "flutter"))
     return points
 

@@ -184,7 +184,8 @@ class Search:
         for nearest in (1e-5, 1e-3) if kind == "divergence" else (1e-5,):
             margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
             before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
-            if before.stable and not after.stable:
+            negative = after.roots[self._lowest].real < 0  # else the tumbling root has come back to zero
+            if before.stable and not after.stable and (negative or kind == "flutter"):
                 break
         else:
             return None
