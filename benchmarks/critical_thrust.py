@@ -3,7 +3,7 @@
 The plain way is what a script does: eight modes of the unloaded vehicle, thrust in steps of 0.25, eigenvalues at each
 until one is complex or negative, bisection. Its time does not include finding the modes. Run with
 
-    python benchmarks/critical_thrust.py
+    python benchmarks/critical_thrust.py [POINTS OF EACH AXIS OF THE MAP]
 """
 
 import os
@@ -12,6 +12,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import platform
 import statistics
+import sys
 import time
 from collections.abc import Callable
 
@@ -53,10 +54,10 @@ def seconds(task: Callable[[], object], repeats: int) -> float:
     return statistics.median(times)
 
 
-def main() -> None:
+def main(points: int) -> None:
     vehicle = beal.catalog.tsto(SPLIT, 5000.0, 5000.0)
-    axes = {ROTATIONAL: np.geomspace(1, 1e4, 100), SHEAR: np.geomspace(1e2, 1e4, 100)}
-    sample = [(axes[ROTATIONAL][i], axes[SHEAR][i]) for i in range(0, 100, 5)]
+    axes = {ROTATIONAL: np.geomspace(1, 1e4, points), SHEAR: np.geomspace(1e2, 1e4, points)}
+    sample = [(axes[ROTATIONAL][i], axes[SHEAR][i]) for i in range(0, points, max(points // 20, 1))]
     modal = [
         beal.discretise(with_values(vehicle, {ROTATIONAL: k_r, SHEAR: k_s}), "corrected-ritz") for k_r, k_s in sample
     ]
@@ -66,22 +67,28 @@ def main() -> None:
         for k_r, k_s in sample
     ]
     off = [abs(plain_way(o) / e.critical_thrust - 1) for o, e in zip(modal, exact, strict=True) if e.critical_thrust]
+    found = beal.critical_thrust(vehicle)
+    chart = beal.stability_map(vehicle, axes)
+    estimated = float((chart["error_estimate"] / chart["critical_thrust"]).max())
     single = seconds(lambda: beal.critical_thrust(vehicle), 21)
-    whole = seconds(lambda: beal.stability_map(vehicle, axes, workers=1), 3) / 1e4
-    both = seconds(lambda: beal.stability_map(vehicle, axes, workers=2), 3) / 1e4
+    whole = seconds(lambda: beal.stability_map(vehicle, axes, workers=1), 3) / points**2
+    both = seconds(lambda: beal.stability_map(vehicle, axes, workers=2), 3) / points**2
 
-    print(f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, NumPy {np.__version__}")
+    print(f"{platform.machine()}, Python {platform.python_version()}, NumPy {np.__version__}")
     print(
-        f"plain way, one vehicle           {plain * 1e3:8.2f} ms   relative error {statistics.median(off):.0e} "
+        f"plain way, one vehicle           {plain * 1e3:7.2f} ms, relative error {statistics.median(off):.0e} "
         f"(median), {max(off):.0e} (largest)"
     )
-    print(f"critical_thrust, one vehicle     {single * 1e3:8.2f} ms   relative error estimate 1e-10")
     print(
-        f"stability_map, a point, 1 core   {whole * 1e3:8.3f} ms   relative error estimate 1e-6   "
-        f"{plain / whole:6.1f} times the plain way's points per second"
+        f"critical_thrust, one vehicle     {single * 1e3:7.2f} ms, relative error estimate "
+        f"{found.error_estimate / found.critical_thrust:.0e}"
     )
-    print(f"stability_map, a point, 2 cores  {both * 1e3:8.3f} ms   {1 / both:.0f} points per second")
+    print(
+        f"stability_map, a point, 1 core   {whole * 1e3:7.3f} ms, relative error estimate {estimated:.0e} (largest), "
+        f"{plain / whole:.0f} times the plain way's points per second"
+    )
+    print(f"stability_map, a point, 2 cores  {both * 1e3:7.3f} ms, {1 / both:.0f} points per second")
 
 
 if __name__ == "__main__":
-    main()
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 100)

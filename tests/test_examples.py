@@ -70,6 +70,11 @@ def test_an_example_runs_and_prints_its_answer(tmp_path, script):
     assert PRINTED[script.name] in run([sys.executable, str(script), *arguments], tmp_path)
 
 
+def test_the_benchmark_runs(tmp_path):
+    printed = run([sys.executable, str(ROOT / "benchmarks" / "critical_thrust.py"), "4"], tmp_path)
+    assert "times the plain way's points per second" in printed
+
+
 @pytest.mark.parametrize("model", ["two_stages.toml", "sounding_rocket.toml"])
 @pytest.mark.parametrize("command", ["check", "modes", "critical"])
 def test_an_example_model_is_understood_by_every_command(model, command):

@@ -37,9 +37,10 @@ def curve(
     elif output:
         note(f"{points} thrusts and {modes} modes written to {output}")
     else:
-        if vehicle.units == "SI":
-            print("thrust in N, angular frequency in rad/s, growth rate in 1/s")
-        show_table(list(columns), list(zip(*(column.tolist() for column in columns.values()), strict=True)))
+        units = (" [N]", " [rad/s]", " [1/s]") if vehicle.units == "SI" else ("", "", "")
+        print("thrust{}; of each mode the angular frequency{} and the growth rate{}".format(*units))
+        short = [name.replace("angular_frequency_", "omega ").replace("growth_rate_", "growth ") for name in columns]
+        show_table(short, list(zip(*(column.tolist() for column in columns.values()), strict=True)))
 
 
 def _columns(found: "ThrustCurve") -> dict[str, Any]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 FLUTTER, DIVERGENCE = 1, 2
 NARROW = 0.3  # share of the width below which a region's label stands upright
-SMALLEST_LABEL = 0.012  # share of the map below which a region has no label of its own
+SMALLEST_LABEL = 0.008  # share of the map below which a region carries no name
 NAMES = {
     "joint[0].rotational_stiffness": "rotational stiffness $k_r L/EI$",
     "joint[0].shear_stiffness": "shear stiffness $k_s L^3/EI$",
