@@ -93,8 +93,8 @@ def test_a_paper_formulation_is_refused_with_the_reason_where_it_does_not_apply(
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (("modes", "--count", "0"), "--count: must lie between 1 and 40, found 0"),
-        (("modes", "--count", "1000000000"), "--count: must lie between 1 and 40"),
+        (("modes", "--count", "0"), "count: must lie between 1 and 40, found 0"),
+        (("modes", "--count", "1000000000"), "count: must lie between 1 and 40"),
         (("modes", "--count", "many"), "Invalid value for '--count'"),
         (("modes", "--thrust", "nan"), "thrust: must be a finite number, found nan"),
         (("modes", "--thrust", "1", "--loaded"), "--thrust: is given beside --loaded"),

@@ -114,7 +114,7 @@ def test_high_modes_are_converged(result_of, written):
 
 
 def test_frequencies_that_do_not_converge_are_not_given(beal_here, written, monkeypatch):
-    monkeypatch.setattr("beal.cli.modes.ORDERS", (10, 14))
+    monkeypatch.setattr("beal.stability.modes.ORDERS", (10, 14))
     done = beal_here("modes", written(example("beal")), "--count", 8, "--json")
     assert (done.returncode, done.stdout) == (3, "")
     assert "8 frequencies do not converge; ask for fewer" in done.stderr

@@ -6,7 +6,8 @@ import pytest
 
 from beal.discretisation.build import discretise
 from beal.errors import ModelError
-from beal.stability.critical import critical_events, critical_thrust, default_limit
+from beal.stability.critical import critical_events, critical_thrust
+from beal.stability.limit import default_limit
 from beal.vehicle import catalog
 from beal.vehicle.parts import Joint, PointMass, Stage, Support, Thrust
 from beal.vehicle.vehicle import Vehicle

@@ -7,15 +7,10 @@ import typer
 
 from beal.cli.options import AsJson, Formulation, Model
 from beal.cli.output import digits, emit, show_table
-from beal.errors import ConvergenceError, ModelError
+from beal.errors import ModelError
 
 if TYPE_CHECKING:
-    from beal.stability.spectrum import Spectrum
     from beal.vehicle.vehicle import Vehicle
-
-ORDERS = (10, 14, 20, 28, 40, 56, 80, 112)
-MOST_MODES = 40
-GOOD, POOR = 1e-9, 1e-4  # relative change from one order to the next at which to stop, and above which to give up
 
 
 def modes(
@@ -27,10 +22,11 @@ def modes(
     as_json: AsJson = False,
 ) -> None:
     """Frequencies and growth rates of the lowest elastic modes at a thrust."""
+    from beal.stability.modes import converged_modes
     from beal.vehicle.file import load
 
     vehicle = load(model)
-    found, error = _converged(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)
+    found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
     order = found.angular_frequency.argsort(kind="stable")
     omega, growth = found.angular_frequency[order], found.growth_rate[order] + 0.0  # no -0
     si = vehicle.units == "SI"
@@ -66,35 +62,3 @@ def _thrust(vehicle: "Vehicle", thrust: float | None, loaded: bool) -> float:
     if vehicle.thrust.nominal is None:
         raise ModelError("thrust.nominal: is needed by --loaded and missing in the model; give --thrust instead")
     return vehicle.thrust.nominal
-
-
-def _converged(vehicle: "Vehicle", thrust: float, count: int, formulation: str) -> "tuple[Spectrum, Any]":
-    """The modes, and how much each frequency changed in the last refinement (None for a few modes by definition)."""
-    import numpy as np
-
-    from beal.discretisation.build import RITZ, discretise
-    from beal.stability.spectrum import spectrum
-
-    if formulation in RITZ:
-        return spectrum(discretise(vehicle, formulation), thrust, count), None  # type: ignore[arg-type]
-    if not 1 <= count <= MOST_MODES:
-        raise ModelError(f"--count: must lie between 1 and {MOST_MODES}, found {count}")
-    before = None
-    best: tuple[float, Spectrum, Any] | None = None
-    for order in ORDERS:
-        operators = discretise(vehicle, formulation, order=order)  # type: ignore[arg-type]
-        if len(operators.M) - operators.rigid < count:
-            continue
-        found = spectrum(operators, thrust, count)
-        omega: Any = np.sort(found.angular_frequency)
-        if before is not None:
-            error = np.abs(omega - before)
-            change = float(np.max(error / np.maximum(omega, vehicle.scales.angular_frequency)))
-            if best is None or change < best[0]:
-                best = change, found, error
-            if change < GOOD:
-                break
-        before = omega
-    if best is None or best[0] > POOR:
-        raise ConvergenceError(f"modes: {count} frequencies do not converge; ask for fewer with --count")
-    return best[1:]

@@ -1,37 +1,28 @@
 """The critical thrust of a vehicle: found by itself, with its kind, its modes and an error estimate."""
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Literal
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
-from threadpoolctl import ThreadpoolController
 
-from beal.discretisation.axial import axial_force
-from beal.discretisation.basis import segments
 from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
-from beal.errors import ConvergenceError, ModelError
+from beal.errors import ModelError
 from beal.stability.complete import Event, events
-from beal.stability.double_root import CriticalPoint, coalescence, divergence
+from beal.stability.double_root import CriticalPoint
+from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
-from beal.stability.ridge import Instability, Kind, Search, meeting_pair
+from beal.stability.refine import FIRST_ORDER, refined, settled
+from beal.stability.ridge import Instability, Search, meeting_pair
+from beal.stability.threads import one_thread
 from beal.stability.zero_roots import mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
-HALF_WAVES = 5  # of the buckling shape whose thrust ends the search by default
-STEPS = 36  # coarse intervals up to there
+STEPS = 36  # coarse intervals up to the default limit
 WATCHED, SPARE = 8, 3  # elastic modes watched, and kept beyond them in the reduced problem
 COMPLETE_SPARE = 2
-FIRST_ORDER = {"legendre": 8, "hermite": 8}
-LAST_ORDER = {"legendre": 26, "hermite": 64}
-FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
-SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
-TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
 
 
 @dataclass(frozen=True)
@@ -140,15 +131,15 @@ def critical_thrust(
     with one_thread():
         if isinstance(vehicle, Operators):
             task = _task(vehicle.vehicle, max_thrust, formulation, basis)
-            return _solve(task, vehicle, method, lambda found: _settled(found, pencil(vehicle)))
+            return _solve(task, vehicle, method, lambda found: settled(found, pencil(vehicle)))
         if modes is not None and formulation not in RITZ:
             raise ModelError(f"modes: applies to {' and '.join(RITZ)} only, found formulation {formulation!r}")
         task = _task(vehicle, max_thrust, formulation, basis)
         if formulation in RITZ:
             operators = discretise(vehicle, formulation, order=modes)
-            return _solve(task, operators, method, lambda found: _settled(found, pencil(operators)))
+            return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
         operators = discretise(vehicle, formulation, basis, FIRST_ORDER[basis])
-        return _solve(task, operators, method, lambda found: _refined(task, found, tolerance or TOLERANCE[basis]))
+        return _solve(task, operators, method, lambda found: refined(vehicle, formulation, basis, found, tolerance))
 
 
 def critical_events(
@@ -182,23 +173,9 @@ def critical_events(
         small = reduced(full, task.watched + COMPLETE_SPARE)
         polished = []
         for event in events(small, task.limit, task.watched):
-            point = _settled(Instability(_start(event), event.kind, event.modes), full)[0]
+            point = settled(Instability(_start(event), event.kind, event.modes), full)[0]
             polished.append(replace(event, thrust=point.thrust, W=point.W) if point.converged else event)
         return polished
-
-
-def default_limit(vehicle: Vehicle) -> float:
-    """Thrust, in N, at which a dead load would buckle the rigidly jointed vehicle in five half waves (WKB).
-
-    integral of sqrt(N/EI) dx = 5 pi, with N = P n(x).
-    """
-    xi, weight = leggauss(8)
-    phase = 0.0
-    for segment in segments(vehicle):
-        stations = segment.start + segment.length * (1 + xi) / 2
-        stiffness = vehicle.stages[segment.stage].bending_stiffness
-        phase += segment.length / 2 * float(weight @ np.sqrt(axial_force(vehicle, stations) / stiffness))
-    return (HALF_WAVES * math.pi / phase) ** 2
 
 
 def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation, basis: BasisName) -> _Task:
@@ -223,7 +200,8 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     found = _first(task, small, method)
     watched = min(task.watched, len(small.M) - small.rigid)
     rigid_body: Literal["neutral", "tumbling", "held"]
-    rigid_body = "tumbling" if drift == "tumbling" else "neutral" if _floats(operators) else "held"
+    floats = operators.rigid > 0 or operators.vehicle.free_free
+    rigid_body = "tumbling" if drift == "tumbling" else "neutral" if floats else "held"
     nothing = CriticalThrust(None, "stable", None, None, None, task.formulation, task.limit, watched, rigid_body)
     result = nothing
     if found:
@@ -238,14 +216,16 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
             error_estimate=error,
         )
     if drift == "tumbling":
-        zero = dict(critical_thrust=0.0, modes=(0, 0), angular_frequency=0.0, error_estimate=0.0)
-        return replace(nothing, kind="divergence", elastic=result, **zero)  # type: ignore[arg-type]
+        return replace(
+            nothing,
+            critical_thrust=0.0,
+            kind="divergence",
+            modes=(0, 0),
+            angular_frequency=0.0,
+            error_estimate=0.0,
+            elastic=result,
+        )
     return result
-
-
-def _floats(operators: Operators) -> bool:
-    vehicle = operators.vehicle
-    return operators.rigid > 0 or vehicle.free_free
 
 
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
@@ -266,76 +246,3 @@ def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
 def _start(event: Event) -> CriticalPoint:
     nothing = np.empty(0)
     return CriticalPoint(event.thrust, event.W, True, 0.0, nothing, nothing)
-
-
-def _polish(full: Pencil, kind: Kind, thrust: float, W: float) -> CriticalPoint:
-    if kind == "flutter":
-        return coalescence(full, thrust, W)
-    return divergence(full, thrust, rigid_body_root(reduced(full), thrust) == "neutral")
-
-
-def _settled(found: Instability, full: Pencil) -> tuple[CriticalPoint, float]:
-    """The critical point of one discretisation, with what rounding leaves uncertain."""
-    if found.point.thrust == 0.0:  # a mechanism
-        return found.point, 0.0
-    point = _polish(full, found.kind, found.point.thrust, found.point.W)
-    return point, point.uncertainty
-
-
-def _refined(task: _Task, found: Instability, tolerance: float) -> tuple[CriticalPoint, float]:
-    """The critical point as the discretisation is refined until its own estimate meets the tolerance."""
-    if found.point.thrust == 0.0:
-        return found.point, 0.0
-    thrusts: list[float] = []
-    error = math.inf
-    for point in _ladder(task, found):
-        thrusts.append(point.thrust)
-        if len(thrusts) < 3:
-            continue
-        before, last = abs(thrusts[-2] - thrusts[-3]), abs(thrusts[-1] - thrusts[-2])
-        error = _remaining(before, last, point.uncertainty) + point.uncertainty
-        if error <= tolerance * point.thrust:
-            return point, error
-    raise ConvergenceError(
-        f"critical thrust {point.thrust:.9g}: relative error {error / point.thrust:.1e} with the finest "
-        f"discretisation, {tolerance:.1e} was asked for; ask for less"
-    )
-
-
-def _remaining(before: float, last: float, rounding: float) -> float:
-    """Error left after two successive corrections: that of a geometric sequence, or of rounding, sampled twice."""
-    if last >= FALLING * before:
-        return SAMPLED * max(last, before)
-    return last * last / before if last > rounding else SAMPLED * last
-
-
-def _ladder(task: _Task, found: Instability) -> Iterator[CriticalPoint]:
-    """The critical point in finer and finer discretisations, each started from the one before."""
-    thrust, W = found.point.thrust, found.point.W
-    order = FIRST_ORDER[task.basis]
-    coarse = None
-    while order <= LAST_ORDER[task.basis]:
-        full = pencil(discretise(task.vehicle, task.formulation, task.basis, order))
-        point = _polish(full, found.kind, thrust, W)
-        if not point.converged:
-            raise ConvergenceError(f"critical thrust near {thrust:.9g}: lost when the discretisation was refined")
-        thrust, W = point.thrust, point.W
-        if task.basis == "legendre":
-            order += 2
-            yield point
-        else:
-            order *= 2  # errors fall with the fourth power of the element: Richardson
-            if coarse is not None:
-                extrapolated = (thrust + (thrust - coarse.thrust) / 15, W + (W - coarse.W) / 15)
-                yield replace(point, thrust=extrapolated[0], W=extrapolated[1])
-            coarse = point
-
-
-@cache
-def _controller() -> ThreadpoolController:
-    return ThreadpoolController()
-
-
-def one_thread() -> AbstractContextManager[object]:
-    """Small matrices are slower on two threads than on one."""
-    return _controller().limit(limits=1, user_api="blas")

@@ -9,9 +9,10 @@ from scipy.optimize import linear_sum_assignment
 from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
-from beal.stability.critical import default_limit, one_thread
+from beal.stability.limit import default_limit
 from beal.stability.pencil import Array, ComplexArray, pencil
 from beal.stability.spectrum import exponents, lowest
+from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
 SPARE = 3  # roots followed beyond those asked for, so that a mode that rises out of them is not lost

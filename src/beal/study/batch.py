@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from beal.discretisation import Formulation
 from beal.errors import ModelError
-from beal.stability.critical import default_limit, one_thread
+from beal.stability.limit import default_limit
 from beal.stability.scan import DIVERGENCE, FLUTTER, STABLE, UNDECIDED, scan
 from beal.stability.table import Degrees, Spring, Table, tables
+from beal.stability.threads import one_thread
 from beal.study.study import Solve
 from beal.vehicle.vehicle import Vehicle
 

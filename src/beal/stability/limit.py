@@ -1,0 +1,26 @@
+"""How far to search: the thrust at which a dead load would have buckled the vehicle several times."""
+
+import math
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from beal.discretisation.axial import axial_force
+from beal.discretisation.basis import segments
+from beal.vehicle.vehicle import Vehicle
+
+HALF_WAVES = 5  # of the buckling shape whose thrust ends the search
+
+
+def default_limit(vehicle: Vehicle) -> float:
+    """Thrust, in N, at which a dead load would buckle the rigidly jointed vehicle in five half waves (WKB).
+
+    integral of sqrt(N/EI) dx = 5 pi, with N = P n(x).
+    """
+    xi, weight = leggauss(8)
+    phase = 0.0
+    for segment in segments(vehicle):
+        stations = segment.start + segment.length * (1 + xi) / 2
+        stiffness = vehicle.stages[segment.stage].bending_stiffness
+        phase += segment.length / 2 * float(weight @ np.sqrt(axial_force(vehicle, stations) / stiffness))
+    return (HALF_WAVES * math.pi / phase) ** 2

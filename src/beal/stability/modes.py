@@ -1,0 +1,72 @@
+"""Frequencies of a vehicle, its discretisation refined until they no longer change."""
+
+import numpy as np
+
+from beal.discretisation.build import RITZ, Formulation, discretise
+from beal.errors import ConvergenceError, ModelError
+from beal.stability.pencil import Array
+from beal.stability.spectrum import Spectrum, spectrum
+from beal.vehicle.vehicle import Vehicle
+
+ORDERS = (10, 14, 20, 28, 40, 56, 80, 112)
+MOST_MODES = 40
+GOOD, POOR = 1e-9, 1e-4  # relative change from one order to the next at which to stop, and above which to give up
+
+
+def converged_modes(
+    vehicle: Vehicle, thrust: float, count: int, formulation: Formulation = "objective"
+) -> tuple[Spectrum, Array | None]:
+    """The lowest elastic modes at a thrust.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    thrust : float
+        In N.
+    count : int
+        Number of modes.
+    formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
+
+    Returns
+    -------
+    spectrum : Spectrum
+    error : ndarray, shape (count,), or None
+        How much each angular frequency, in ascending order, changed in the last refinement; None where a few modes
+        are part of the formulation.
+
+    Raises
+    ------
+    ModelError
+        If the number of modes is out of range.
+    ConvergenceError
+        If so many do not converge.
+
+    Examples
+    --------
+    >>> from beal.vehicle import catalog
+    >>> converged_modes(catalog.beck(), 10.0, 2)[0].angular_frequency.round(6).tolist()
+    [5.175762, 18.586795]
+    """
+    if formulation in RITZ:
+        return spectrum(discretise(vehicle, formulation), thrust, count), None
+    if not 1 <= count <= MOST_MODES:
+        raise ModelError(f"count: must lie between 1 and {MOST_MODES}, found {count}")
+    before: Array | None = None
+    best: tuple[float, Spectrum, Array] | None = None
+    for order in ORDERS:
+        operators = discretise(vehicle, formulation, order=order)
+        if len(operators.M) - operators.rigid < count:
+            continue
+        found = spectrum(operators, thrust, count)
+        omega = np.sort(found.angular_frequency)
+        if before is not None:
+            error = np.abs(omega - before)
+            change = float(np.max(error / np.maximum(omega, vehicle.scales.angular_frequency)))
+            if best is None or change < best[0]:
+                best = change, found, error
+            if change < GOOD:
+                break
+        before = omega
+    if best is None or best[0] > POOR:
+        raise ConvergenceError(f"modes: {count} frequencies do not converge; ask for fewer")
+    return best[1:]

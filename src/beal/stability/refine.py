@@ -1,0 +1,88 @@
+"""From a critical point of a reduced problem to that of the vehicle, with an estimate of what is left of the error."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from beal.discretisation.build import BasisName, Formulation, discretise
+from beal.errors import ConvergenceError
+from beal.stability.double_root import CriticalPoint, coalescence, divergence
+from beal.stability.pencil import Pencil, pencil, reduced
+from beal.stability.ridge import Instability, Kind
+from beal.stability.zero_roots import rigid_body_root
+from beal.vehicle.vehicle import Vehicle
+
+FIRST_ORDER = {"legendre": 8, "hermite": 8}
+LAST_ORDER = {"legendre": 26, "hermite": 64}
+TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
+FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
+SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
+
+
+def polish(full: Pencil, kind: Kind, thrust: float, W: float) -> CriticalPoint:
+    """The critical point of a full pencil next to a guess."""
+    if kind == "flutter":
+        return coalescence(full, thrust, W)
+    return divergence(full, thrust, rigid_body_root(reduced(full), thrust) == "neutral")
+
+
+def settled(found: Instability, full: Pencil) -> tuple[CriticalPoint, float]:
+    """The critical point of one discretisation, with what rounding leaves uncertain."""
+    if found.point.thrust == 0.0:  # a mechanism
+        return found.point, 0.0
+    point = polish(full, found.kind, found.point.thrust, found.point.W)
+    return point, point.uncertainty
+
+
+def refined(
+    vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability, tolerance: float | None
+) -> tuple[CriticalPoint, float]:
+    """The critical point as the discretisation is refined until its own estimate meets the tolerance."""
+    if found.point.thrust == 0.0:
+        return found.point, 0.0
+    thrusts: list[float] = []
+    error = math.inf
+    tolerance = tolerance or TOLERANCE[basis]
+    for point in _ladder(vehicle, formulation, basis, found):
+        thrusts.append(point.thrust)
+        if len(thrusts) < 3:
+            continue
+        before, last = abs(thrusts[-2] - thrusts[-3]), abs(thrusts[-1] - thrusts[-2])
+        error = _remaining(before, last, point.uncertainty) + point.uncertainty
+        if error <= tolerance * point.thrust:
+            return point, error
+    raise ConvergenceError(
+        f"critical thrust {point.thrust:.9g}: relative error {error / point.thrust:.1e} with the finest "
+        f"discretisation, {tolerance:.1e} was asked for; ask for less"
+    )
+
+
+def _remaining(before: float, last: float, rounding: float) -> float:
+    """Error left after two successive corrections: that of a geometric sequence, or of rounding, sampled twice."""
+    if last >= FALLING * before:
+        return SAMPLED * max(last, before)
+    return last * last / before if last > rounding else SAMPLED * last
+
+
+def _ladder(
+    vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability
+) -> Iterator[CriticalPoint]:
+    """The critical point in finer and finer discretisations, each started from the one before."""
+    thrust, W = found.point.thrust, found.point.W
+    order = FIRST_ORDER[basis]
+    coarse = None
+    while order <= LAST_ORDER[basis]:
+        full = pencil(discretise(vehicle, formulation, basis, order))
+        point = polish(full, found.kind, thrust, W)
+        if not point.converged:
+            raise ConvergenceError(f"critical thrust near {thrust:.9g}: lost when the discretisation was refined")
+        thrust, W = point.thrust, point.W
+        if basis == "legendre":
+            order += 2
+            yield point
+        else:
+            order *= 2  # errors fall with the fourth power of the element: Richardson
+            if coarse is not None:
+                extrapolated = (thrust + (thrust - coarse.thrust) / 15, W + (W - coarse.W) / 15)
+                yield replace(point, thrust=extrapolated[0], W=extrapolated[1])
+            coarse = point
