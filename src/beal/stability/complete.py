@@ -84,12 +84,17 @@ def events(pencil: Pencil, limit: float, watched: int) -> list[Event]:
                 found.append(point)
     found.sort()
     between = np.array([0.0, *(point[0] for point in found), limit])
-    counts = [_unstable(pencil, P, watched, neutral) for P in (between[1:] + between[:-1]) / 2]
+    midway = (between[1:] + between[:-1]) / 2
+    counts = [_unstable(pencil, P, watched, neutral) for P in midway]
     result = []
-    for (thrust, W, kind), before, after in zip(found, counts, counts[1:], strict=False):
-        if before != after:  # else two roots cross without coupling
-            modes = (1, 1) if kind == "divergence" else meeting_pair(pencil, thrust * (1 - 1e-6), W)
-            result.append(Event(thrust, W, kind, modes, after, before))
+    for n, (thrust, W, kind) in enumerate(found):
+        if counts[n] != counts[n + 1]:  # else two roots cross without coupling
+            if kind == "divergence":
+                below = min(_negative(pencil, P) for P in midway[n : n + 2])
+                modes = (below + 1 - (0 if neutral else pencil.rigid),) * 2
+            else:
+                modes = meeting_pair(pencil, thrust * (1 - 1e-6), W)
+            result.append(Event(thrust, W, kind, modes, counts[n + 1], counts[n]))
     return result
 
 
@@ -157,6 +162,11 @@ def _polished(pencil: Pencil, thrust: float, kind: str, watched: int, neutral: b
         if point.converged and not drifts and abs(point.thrust - thrust) < NEXT * thrust:
             points.append((point.thrust, point.W, "flutter"))
     return points
+
+
+def _negative(pencil: Pencil, thrust: float) -> int:
+    """Number of roots below zero."""
+    return int(np.sum(pencil.roots(thrust).real < -ZERO * pencil.shift))
 
 
 def _unstable(pencil: Pencil, thrust: float, watched: int, neutral: bool) -> int:

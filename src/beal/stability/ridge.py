@@ -191,7 +191,8 @@ class Search:
             return None
         if self._within(left, before):
             return None
-        modes = (1, 1) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
+        lowest = self._lowest + 1 - (0 if self._drift == "neutral" else self.pencil.rigid)
+        modes = (lowest, lowest) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
         return Instability(point, kind, modes)
 
 
