@@ -108,14 +108,16 @@ def _labels(ax: "Axes", x: NDArray[Any], y: NDArray[Any], region: NDArray[np.int
         depth = _depth(inside)
         deepest = np.argwhere(depth == depth.max())
         i, j = deepest[np.argmin(abs(deepest - deepest.mean(axis=0)).sum(axis=1))]
-        wide, high = inside[:, j].mean(), inside[i].mean()
+        upright = inside[:, j].mean() < NARROW < inside[i].mean()
+        if upright:  # in the middle of the column, so that the name stays inside the map
+            j = int(np.median(np.flatnonzero(inside[i])))
         ax.text(
             x[i],
             y[j],
             _name(int(value)),
             ha="center",
             va="center",
-            rotation=90 if wide < NARROW < high else 0,
+            rotation=90 if upright else 0,
             fontsize=8 if depth.max() > 2 else 6.5,
             bbox=box,
             zorder=3,
