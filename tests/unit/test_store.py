@@ -37,7 +37,7 @@ def undisturbed():
 def test_a_map_on_disk_opens_with_xarray_and_equals_the_one_in_memory(tmp_path, undisturbed):
     out = tmp_path / "map.zarr"
     beal.stability_map(VEHICLE, AXES, out=out, workers=1)
-    opened = xarray.open_zarr(str(out), consolidated=False)
+    opened = xarray.open_zarr(str(out))
     assert same(opened, undisturbed)
     assert opened[ROTATIONAL].values == pytest.approx(AXES[ROTATIONAL], rel=1e-15)
     assert opened.attrs == undisturbed.attrs
@@ -53,7 +53,7 @@ def test_an_interrupted_map_resumes_to_the_same_bits(tmp_path, undisturbed, work
     out = tmp_path / "map.zarr"
     with pytest.raises(Stop):
         beal.stability_map(VEHICLE, AXES, out=out, workers=workers, progress=stop_after(300))
-    kept = int(np.sum(xarray.open_zarr(str(out), consolidated=False)["status"].values > 0))
+    kept = int(np.sum(xarray.open_zarr(str(out))["status"].values > 0))
     assert 300 <= kept < 900
     seen = []
     resumed = beal.stability_map(
@@ -78,7 +78,7 @@ def test_a_full_disk_keeps_what_was_solved(tmp_path, undisturbed, monkeypatch):
         patch.setattr(zarr.Array, "__setitem__", full)
         with pytest.raises(beal.ModelError, match=r"No space left on device.*kept.*--resume"):
             beal.stability_map(VEHICLE, AXES, out=out, workers=1)
-    assert np.any(xarray.open_zarr(str(out), consolidated=False)["status"].values > 0)
+    assert np.any(xarray.open_zarr(str(out))["status"].values > 0)
     assert same(beal.stability_map(VEHICLE, AXES, out=out, resume=True, workers=1), undisturbed)
 
 

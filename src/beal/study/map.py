@@ -135,7 +135,7 @@ def run_study(
         return _dataset(study, solved)
     import xarray
 
-    return xarray.open_zarr(str(store.path), consolidated=False)
+    return xarray.open_zarr(str(store.path))
 
 
 def _points(block: Block) -> int:

@@ -5,6 +5,7 @@ stopped; blocks still marked pending are solved again on resumption.
 """
 
 import json
+import warnings
 from collections.abc import Iterator, Mapping
 from importlib.metadata import version
 from itertools import product
@@ -119,6 +120,9 @@ class Store:
                 dimension_names=tuple(study.axes),
                 attributes=variable_attributes(name, study.vehicle.units),
             )
+        with warnings.catch_warnings():  # an extension of the format, which xarray looks for first
+            warnings.simplefilter("ignore", category=UserWarning)
+            zarr.consolidate_metadata(str(self.path))
         return group
 
     def _opened(self, study: Study) -> zarr.Group:
