@@ -124,3 +124,23 @@ def test_infinite_stiffness_is_a_value_like_any_other():
 def test_workers_must_be_positive(workers):
     with pytest.raises(beal.ModelError, match="workers"):
         beal.stability_map(VEHICLE, {SHEAR: [1e3]}, workers=workers)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"modes": 6}, r"solve\.modes: applies to corrected-ritz and as-printed only"),
+        ({"max_thrust": -1.0}, r"solve\.max_thrust: must be a positive number"),
+        ({"max_thrust": math.nan}, r"solve\.max_thrust: must be a positive number"),
+        ({"formulation": "printed"}, r"solve\.formulation: must be one of"),
+    ],
+)
+def test_an_option_that_suits_no_point_is_refused_before_any_is_solved(options, message):
+    with pytest.raises(beal.ModelError, match=message):
+        beal.stability_map(VEHICLE, {SHEAR: [1e3]}, **options)
+
+
+def test_a_ritz_formulation_is_refused_with_the_reason_where_it_does_not_apply():
+    held = VEHICLE.model_copy(update={"support": beal.Support(nose="clamped")})
+    with pytest.raises(beal.ModelError, match=r"as-printed: applies to the paper's vehicle only.*free ends"):
+        beal.stability_map(held, {SHEAR: [1e3]}, formulation="as-printed")

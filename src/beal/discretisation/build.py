@@ -62,7 +62,7 @@ def discretise(
     if order is not None and order < 1:
         raise ModelError(f"order: must be at least 1, found {order}")
     if formulation in RITZ:
-        _check_ritz(vehicle, formulation)
+        check_ritz(vehicle, formulation)
         modes = ModeBasis(vehicle, order or PAPER_MODES, RITZ[formulation])
         return assemble(_inertial(vehicle), modes, supports=False)
     if basis not in DEFAULT_ORDER:
@@ -80,8 +80,8 @@ def _inertial(vehicle: Vehicle) -> Vehicle:
     return vehicle.model_copy(update={"joints": joints})
 
 
-def _check_ritz(vehicle: Vehicle, formulation: str) -> None:
-    """Refuses vehicles to which the modes of Irani & Kavianipour (2009), Eq. (10), do not belong."""
+def check_ritz(vehicle: Vehicle, formulation: str) -> None:
+    """Refuse vehicles to which the modes of Irani & Kavianipour (2009), Eq. (10), do not belong."""
     stages = vehicle.stages
     reasons = []
     if len(stages) != 2:

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from beal.discretisation import FORMULATIONS, Formulation
+from beal.discretisation.build import FORMULATIONS, RITZ, Formulation, check_ritz
 from beal.errors import ModelError
 from beal.vehicle.file import dumps
 from beal.vehicle.paths import with_values
@@ -68,12 +68,18 @@ class Study:
         if self.solve.formulation not in FORMULATIONS:
             choices = ", ".join(FORMULATIONS)
             problems.append(("solve.formulation", f"must be one of {choices}, found {self.solve.formulation!r}"))
+        if self.solve.modes is not None and self.solve.formulation not in RITZ:
+            problems.append(("solve.modes", f"applies to {' and '.join(RITZ)} only, found {self.solve.formulation}"))
+        if self.solve.max_thrust is not None and not 0 < self.solve.max_thrust < math.inf:
+            problems.append(("solve.max_thrust", f"must be a positive number, found {self.solve.max_thrust}"))
         if not 1e-13 <= self.solve.tolerance < 1:
             problems.append(("solve.tolerance", f"must lie between 1e-13 and 1, found {self.solve.tolerance}"))
         if problems:
             raise ModelError(problems)
         for path in self.axes:
             self.at((0,) * len(self.axes), only=path)
+        if self.solve.formulation in RITZ:  # else every point would be invalid, for the same reason
+            check_ritz(self.vehicle, self.solve.formulation)
 
     @property
     def shape(self) -> tuple[int, ...]:
