@@ -16,6 +16,7 @@ from beal.paper import cases
 from beal.paper.evidence import Curve, Maps
 from beal.plot.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION
 from beal.stability.spectrum import Spectrum
+from beal.study.store import VARIABLES
 from beal.vehicle.catalog import tsto
 
 if TYPE_CHECKING:
@@ -256,18 +257,7 @@ def chart(number: int, split: float, charts: Maps) -> Drawing:
         span = f"P_cr {np.nanmin(thrust):.2f} to {np.nanmax(thrust):.2f}"
         ranges.append(f"{cases.NAMES[name]}: {span}, {_shares(data)}")
         flat = data.stack(point=(cases.K_R, cases.K_S))
-        values = [
-            np.asarray(flat[v])
-            for v in (
-                "critical_thrust",
-                "kind",
-                "mode_low",
-                "mode_high",
-                "angular_frequency",
-                "error_estimate",
-                "status",
-            )
-        ]
+        values = [np.asarray(flat[v]) for v in VARIABLES]
         rows += [(name, *row) for row in zip(flat[cases.K_R].values, flat[cases.K_S].values, *values, strict=True)]
     mesh = axes[0, 0].collections[0]
     figure.colorbar(mesh, ax=axes, label="critical thrust $P_{cr} L^2/EI$", ticks=LEVELS, shrink=0.85, aspect=32)
@@ -281,18 +271,7 @@ def chart(number: int, split: float, charts: Maps) -> Drawing:
     table = Table(
         "Critical thrust P L^2/EI over k_r L/EI and k_s L^3/EI; kind 0 stable, 1 flutter, 2 divergence; modes that "
         "meet; omega sqrt(m L^4/EI) there; error estimate of the thrust; status 1 solved",
-        (
-            "formulation",
-            "k_r",
-            "k_s",
-            "critical_thrust",
-            "kind",
-            "mode_low",
-            "mode_high",
-            "angular_frequency",
-            "error_estimate",
-            "status",
-        ),
+        ("formulation", "k_r", "k_s", *VARIABLES),
         rows,
     )
     return Drawing(

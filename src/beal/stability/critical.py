@@ -69,12 +69,10 @@ class CriticalThrust:
 class _Task:
     """What a search needs to know, resolved."""
 
-    vehicle: Vehicle
     limit: float
     steps: int
     watched: int
     formulation: Formulation
-    basis: BasisName
 
 
 def critical_thrust(
@@ -130,11 +128,11 @@ def critical_thrust(
     """
     with one_thread():
         if isinstance(vehicle, Operators):
-            task = _task(vehicle.vehicle, max_thrust, formulation, basis)
+            task = _task(vehicle.vehicle, max_thrust, formulation)
             return _solve(task, vehicle, method, lambda found: settled(found, pencil(vehicle)))
         if modes is not None and formulation not in RITZ:
             raise ModelError(f"modes: applies to {' and '.join(RITZ)} only, found formulation {formulation!r}")
-        task = _task(vehicle, max_thrust, formulation, basis)
+        task = _task(vehicle, max_thrust, formulation)
         if formulation in RITZ:
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
@@ -168,17 +166,17 @@ def critical_events(
         operators = vehicle
         if isinstance(operators, Vehicle):
             operators = discretise(operators, formulation, order=modes if formulation in RITZ else 12)
-        task = _task(operators.vehicle, max_thrust, formulation, "legendre")
+        task = _task(operators.vehicle, max_thrust, formulation)
         full = pencil(operators)
         small = reduced(full, task.watched + COMPLETE_SPARE)
         polished = []
         for event in events(small, task.limit, task.watched):
-            point = settled(Instability(_start(event), event.kind, event.modes), full)[0]
+            point = settled(Instability(_start(event.thrust, event.W), event.kind, event.modes), full)[0]
             polished.append(replace(event, thrust=point.thrust, W=point.W) if point.converged else event)
         return polished
 
 
-def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation, basis: BasisName) -> _Task:
+def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation) -> _Task:
     natural = default_limit(vehicle)
     if max_thrust is not None and not (0 < max_thrust < math.inf):
         raise ModelError(f"max_thrust: must be a positive number, found {max_thrust}")
@@ -186,7 +184,7 @@ def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation, 
     if limit > 20 * natural:
         raise ModelError(f"max_thrust: at most {20 * natural:.3g} is resolved for this vehicle, found {limit:.3g}")
     springs = sum(math.isfinite(k) for j in vehicle.joints for k in (j.rotational_stiffness, j.shear_stiffness))
-    return _Task(vehicle, limit, math.ceil(STEPS * limit / natural) + 1, WATCHED + springs, formulation, basis)
+    return _Task(limit, math.ceil(STEPS * limit / natural) + 1, WATCHED + springs, formulation)
 
 
 Refine = Callable[[Instability], tuple[CriticalPoint, float]]
@@ -233,16 +231,17 @@ def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
         raise ModelError(f"method: must be fast or complete, found {method!r}")
     if kind := mechanism(small, task.limit):
         modes = (1, 1) if kind == "divergence" else meeting_pair(small, 0.0, 0.0)
-        return Instability(_start(Event(0.0, 0.0, kind, modes, 1, 0)), kind, modes)
+        return Instability(_start(0.0, 0.0), kind, modes)
     if method == "fast":
         return Search(small, task.limit, task.steps, task.watched).first()
     own = rigid_body_root(small, task.limit) == "tumbling"  # a root that may come back and leave again
     for event in events(small, task.limit, task.watched):
         if event.unstable > max(event.before, own and event.kind == "divergence"):
-            return Instability(_start(event), event.kind, event.modes)
+            return Instability(_start(event.thrust, event.W), event.kind, event.modes)
     return None
 
 
-def _start(event: Event) -> CriticalPoint:
+def _start(thrust: float, W: float) -> CriticalPoint:
+    """A point to be polished, without eigenvectors."""
     nothing = np.empty(0)
-    return CriticalPoint(event.thrust, event.W, True, 0.0, nothing, nothing)
+    return CriticalPoint(thrust, W, True, 0.0, nothing, nothing)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from beal.stability.pencil import Array
 from beal.stability.polish import polished
+from beal.stability.ridge import DIP, FLAT
 from beal.stability.table import Table
 
 Integers = NDArray[np.intp]
@@ -20,7 +21,6 @@ Booleans = NDArray[np.bool_]
 INTERVALS = (9, 45, 225)  # of thrust on a panel, for what is still undecided with fewer
 GRID = 96  # values of W between which extrema of D are separated, evenly spaced in sqrt(omega)
 RIDGES = 6  # extrema that are followed
-DIP, FLAT = 0.5, 1e-9  # as in the search for one vehicle
 NEWTON = 12
 MARGIN = 1e-6  # share of the critical thrust by which the state before it is checked
 

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation import Formulation
-from beal.errors import ModelError
 from beal.stability.limit import default_limit
 from beal.stability.scan import DIVERGENCE, FLUTTER, STABLE, UNDECIDED, scan
 from beal.stability.table import Degrees, Spring, Table, tables
@@ -48,10 +47,7 @@ def solve_springs(
     values = np.full((len(stiffnesses), 4), np.nan)
     if solve.formulation not in TABULATED:
         return kind, values
-    try:
-        natural = default_limit(vehicle)
-    except ModelError:
-        return kind, values
+    natural = default_limit(vehicle)
     limit = solve.max_thrust or natural
     left = np.arange(len(stiffnesses))
     for panel in range(int(np.ceil(PANELS * limit / natural))):

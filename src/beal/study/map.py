@@ -111,7 +111,7 @@ def run_study(
     if workers is not None and workers < 1:
         raise ModelError(f"workers: must be at least 1, found {workers}")
     store = Store(Path(out), study, resume) if out is not None else None
-    solved = empty(study.shape)
+    solved = empty(study.shape) if store is None else {}
     todo = [block for block in blocks(study.shape) if store is None or store.pending(block)]
     total = int(np.prod(study.shape))
     done = total - sum(_points(block) for block in todo)
