@@ -39,7 +39,7 @@ def test_a_study_file_resolves_ranges_and_values(tmp_path):
     assert study.axes[ROTATIONAL] == pytest.approx((1, 10, 100, 1000, 10000), rel=1e-15)
     assert study.axes["stage.split"] == (0.2, 0.4)
     assert (study.solve.max_thrust, study.solve.formulation, study.shape) == (300.0, "converged", (5, 2))
-    assert study.at((1, 0)).boundaries[1] == 0.2
+    assert study.at((10.0, 0.2)).boundaries[1] == 0.2
 
 
 @pytest.mark.parametrize(

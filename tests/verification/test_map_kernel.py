@@ -43,7 +43,7 @@ def test_tables_agree_with_the_search_for_one_vehicle_or_leave_it_to_that(seed, 
         assert KINDS[int(kinds[index])] == one.kind
         if one.kind == "stable":
             continue
-        thrust, mode, omega, error = values[index]
+        thrust, mode, omega, error = values[:, index]
         assert mode == one.modes[0]
         assert abs(thrust - one.critical_thrust) <= error + one.error_estimate
         assert omega == pytest.approx(one.angular_frequency, rel=1e-6, abs=1e-6)
@@ -54,4 +54,4 @@ def test_tables_decide_nearly_all_of_the_papers_maps(split):
     grid = [(r, s) for r in np.geomspace(1, 1e4, 20) for s in np.geomspace(1e2, 1e4, 20)]
     kinds, values = solve_springs(beal.catalog.tsto(split, 1.0, 1.0), SPRINGS, np.array(grid), Solve(tolerance=1e-8))
     assert np.mean(kinds == UNDECIDED) < 0.02
-    assert np.nanmax(values[:, 3] / values[:, 0]) < 1e-8
+    assert np.nanmax(values[3] / values[0]) < 1e-8

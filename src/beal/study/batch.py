@@ -40,11 +40,11 @@ def solve_springs(
     -------
     kind : ndarray of int, shape (vehicles,)
         As in `beal.stability.scan`; undecided vehicles are to be solved one by one.
-    values : ndarray, shape (vehicles, 4)
+    values : ndarray, shape (4, vehicles)
         Critical thrust, lower mode, angular frequency, error estimate.
     """
     kind = np.full(len(stiffnesses), UNDECIDED)
-    values = np.full((len(stiffnesses), 4), np.nan)
+    values = np.full((4, len(stiffnesses)), np.nan)
     if solve.formulation not in TABULATED:
         return kind, values
     natural = default_limit(vehicle)
@@ -61,7 +61,7 @@ def solve_springs(
         beyond = settled & (found.thrust > limit)
         good = settled & ~beyond & (error <= solve.tolerance * found.thrust)
         kind[left[good]] = found.kind[good]
-        values[left[good]] = np.column_stack((found.thrust, found.ridge, np.sqrt(found.W), error))[good]
+        values[:, left[good]] = np.array((found.thrust, found.ridge, np.sqrt(found.W), error))[:, good]
         last = pair[0].high >= limit
         kind[left[beyond | ((found.kind == STABLE) & last)]] = STABLE
         left = left[(found.kind == STABLE) & (not last)]

@@ -1,10 +1,9 @@
-"""Solving one block of a study."""
+"""Solving points of a study, together where they share a discretisation."""
 
 import re
-from collections import defaultdict
-from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.critical import CriticalThrust, critical_thrust
@@ -15,37 +14,46 @@ from beal.study.store import KINDS, STATUS, Arrays, Block, empty
 from beal.study.study import Study
 
 _SPRING = re.compile(r"joint\[(\d+)\]\.(rotational_stiffness|shear_stiffness)")
-Index = tuple[int, ...]
+Values = NDArray[np.float64]
 
 
 def solve_block(study: Study, block: Block) -> Arrays:
-    """Critical thrust and its evidence at every point of a block.
+    """Critical thrust and its evidence at every point of a block of the grid."""
+    axes = [np.array(axis)[part] for axis, part in zip(study.axes.values(), block, strict=True)]
+    grid = np.meshgrid(*axes, indexing="ij")
+    found = solve_points(study, np.stack([axis.ravel() for axis in grid], axis=1))
+    return {name: values.reshape(grid[0].shape) for name, values in found.items()}
+
+
+def solve_points(study: Study, values: Values) -> Arrays:
+    """Critical thrust and its evidence at any points.
 
     Points that differ in joint springs only are solved together. A point that cannot be solved carries its status, not
     an exception: ``invalid`` where the model is refused there, ``not_converged`` where the numerics fail.
+
+    Parameters
+    ----------
+    study : Study
+    values : ndarray, shape (points, axes)
+        A value on each axis of the study, on its grid or not.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (points,)
+        The variables of `beal.study.store.VARIABLES`.
     """
-    arrays = empty(tuple(part.stop - part.start for part in block))
-    corner = tuple(part.start for part in block)
-    for index, record in _solved(study, block):
-        inside = tuple(i - start for i, start in zip(index, corner, strict=True))
-        for name, value in record.items():
-            arrays[name][inside] = value
-    return arrays
-
-
-def _solved(study: Study, block: Block) -> Iterable[tuple[Index, dict[str, float]]]:
+    arrays = empty((len(values),))
     springs = {axis: spring for axis, path in enumerate(study.axes) if (spring := _spring(path))}
-    groups: dict[Index, list[Index]] = defaultdict(list)
-    for index in np.ndindex(tuple(part.stop - part.start for part in block)):
-        point = tuple(part.start + i for part, i in zip(block, index, strict=True))
-        groups[tuple(0 if axis in springs else i for axis, i in enumerate(point))].append(point)
-    for common, points in groups.items():
-        one_by_one = points
+    others = [axis for axis in range(values.shape[1]) if axis not in springs]
+    _, group = np.unique(values[:, others], axis=0, return_inverse=True)
+    for points in np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1]):
+        left = points
         if springs and len(points) >= WORTHWHILE:
-            together, one_by_one = _together(study, common, springs, points)
-            yield from together
-        for point in one_by_one:
-            yield point, _alone(study, point)
+            left = points[_together(study, springs, values, points, arrays)]
+        for point in left:
+            for name, value in _alone(study, values[point]).items():
+                arrays[name][point] = value
+    return arrays
 
 
 def _spring(path: str) -> Spring | None:
@@ -56,35 +64,39 @@ def _spring(path: str) -> Spring | None:
 
 
 def _together(
-    study: Study, common: Index, springs: dict[int, Spring], points: list[Index]
-) -> tuple[list[tuple[Index, dict[str, float]]], list[Index]]:
-    """Records of the points that the tables decide, and the points that they leave."""
-    axes = list(study.axes.values())
-    stiffnesses = np.array([[axes[axis][point[axis]] for axis in springs] for point in points])
+    study: Study, springs: dict[int, Spring], values: Values, points: NDArray[np.intp], arrays: Arrays
+) -> NDArray[np.bool_]:
+    """Fills in the points that the tables decide and says which they leave, shape (points,)."""
+    axes = np.array(tuple(springs))
+    stiffnesses, common = values[points[:, None], axes], values[points[0]].copy()
+    common[axes] = np.inf  # the tables are made for any stiffness
     try:
         vehicle = study.at(common)
     except ModelError:
-        return [], points
+        return np.ones(len(points), dtype=bool)
     if not np.all(stiffnesses >= 0):
-        return [], points
-    kind, values = solve_springs(vehicle, tuple(springs.values()), stiffnesses, study.solve)
-    records = []
-    for point, k, (thrust, mode, omega, error) in zip(points, kind, values, strict=True):
-        if k == UNDECIDED:
-            continue
-        record: dict[str, float] = {"kind": int(k), "status": STATUS.index("solved")}
-        if k != STABLE:
-            record |= {"critical_thrust": thrust, "angular_frequency": omega, "error_estimate": error}
-            record |= {"mode_low": mode, "mode_high": mode + (k != DIVERGENCE)}
-        records.append((point, record))
-    return records, [point for point, k in zip(points, kind, strict=True) if k == UNDECIDED]
+        return np.ones(len(points), dtype=bool)
+    kind, (thrust, mode, omega, error) = solve_springs(vehicle, tuple(springs.values()), stiffnesses, study.solve)
+    decided, unstable = points[kind != UNDECIDED], (kind != UNDECIDED) & (kind != STABLE)
+    arrays["kind"][decided] = kind[kind != UNDECIDED]
+    arrays["status"][decided] = STATUS.index("solved")
+    columns = {
+        "critical_thrust": thrust,
+        "angular_frequency": omega,
+        "error_estimate": error,
+        "mode_low": mode,
+        "mode_high": mode + (kind != DIVERGENCE),
+    }
+    for name, column in columns.items():
+        arrays[name][points[unstable]] = column[unstable]
+    return kind == UNDECIDED
 
 
-def _alone(study: Study, point: Index) -> dict[str, float]:
+def _alone(study: Study, values: Values) -> dict[str, float]:
     solve = study.solve
     try:
         result = critical_thrust(
-            study.at(point),
+            study.at(values),
             solve.max_thrust,
             solve.formulation,
             modes=solve.modes,

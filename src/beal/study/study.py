@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -76,8 +76,8 @@ class Study:
             problems.append(("solve.tolerance", f"must lie between 1e-13 and 1, found {self.solve.tolerance}"))
         if problems:
             raise ModelError(problems)
-        for path in self.axes:
-            self.at((0,) * len(self.axes), only=path)
+        for path, axis in self.axes.items():
+            with_values(self.vehicle, {path: axis[0]})
         if self.solve.formulation in RITZ:  # else every point would be invalid, for the same reason
             check_ritz(self.vehicle, self.solve.formulation)
 
@@ -86,10 +86,9 @@ class Study:
         """Points along each axis."""
         return tuple(len(values) for values in self.axes.values())
 
-    def at(self, index: Sequence[int], only: str | None = None) -> Vehicle:
-        """The vehicle at a grid point, or with the quantity of one axis alone replaced."""
-        values = {path: axis[i] for (path, axis), i in zip(self.axes.items(), index, strict=True)}
-        return with_values(self.vehicle, {only: values[only]} if only else values)
+    def at(self, values: Iterable[float]) -> Vehicle:
+        """The vehicle with a value on each axis, on the grid or off it."""
+        return with_values(self.vehicle, dict(zip(self.axes, (float(value) for value in values), strict=True)))
 
     @property
     def inputs(self) -> dict[str, str]:
