@@ -1,7 +1,10 @@
 """What the README and the examples show is what happens."""
 
+import os
 import re
 import shlex
+import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +14,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+CLUSTERS = (ROOT / "docs" / "clusters.md").read_text(encoding="utf-8")
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -26,8 +30,8 @@ def run(command, folder):
     return done.stdout
 
 
-def blocks(language):
-    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+def blocks(language, page=README):
+    return re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL)
 
 
 @pytest.fixture
@@ -54,6 +58,68 @@ def test_the_python_of_the_readme_prints_what_it_says(readme_folder):
     for block in blocks("python"):
         expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
         assert run([sys.executable, "-c", block], readme_folder).strip() == expected
+
+
+STAND_IN = """
+import distributed
+class SLURMCluster(distributed.LocalCluster):
+    def __init__(self, cores, processes, memory, walltime):
+        super().__init__(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    def scale(self, n=2, jobs=None):  # closing asks for none
+        return super().scale(n)
+"""
+
+
+@pytest.fixture
+def cluster_folder(readme_folder):
+    (readme_folder / "joints.toml").write_text(blocks("toml", CLUSTERS)[0])
+    (readme_folder / "dask_jobqueue.py").write_text(STAND_IN)  # a queue of jobs, on this machine
+    return readme_folder
+
+
+def test_every_page_of_the_docs_is_executed():
+    assert [path.name for path in (ROOT / "docs").rglob("*.md")] == ["clusters.md"]
+    assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
+
+
+@pytest.mark.parametrize("block", blocks("console", CLUSTERS))
+def test_a_map_on_local_dask_workers_prints_what_is_shown(cluster_folder, block):
+    command, _, shown = block.partition("\n")
+    words = shlex.split(command.removeprefix("$ "))
+    assert words[0] == "beal"
+    assert run([*BEAL, *words[1:]], cluster_folder).strip() == shown.strip()
+
+
+@pytest.mark.parametrize("block", blocks("sh", CLUSTERS))
+def test_a_map_on_a_scheduler_of_its_own_is_made(cluster_folder, block):
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        script = block.replace("8786", str(free.getsockname()[1])).replace(
+            "scheduler --port", "scheduler --no-dashboard --port"
+        )
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    shell = subprocess.Popen(
+        ["bash", "-e", "-c", script],
+        cwd=cluster_folder,
+        env=os.environ | {"PATH": path},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        assert shell.stdout.readline() == "joints.zarr: 1600 points: 0 stable, 1237 flutter, 363 divergence\n"
+        assert shell.wait(timeout=60) == 0
+    finally:
+        os.killpg(shell.pid, signal.SIGTERM)  # the scheduler and its workers
+        shell.stdout.close()
+
+
+@pytest.mark.parametrize("block", blocks("python", CLUSTERS), ids=["executor", "queue"])
+def test_the_python_of_the_cluster_page_prints_what_it_says(cluster_folder, block):
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    (cluster_folder / "script.py").write_text(block)
+    assert run([sys.executable, "script.py"], cluster_folder).strip() == expected
 
 
 @pytest.mark.parametrize("formulation", ["as-printed", "corrected-ritz", "converged", "objective"])

@@ -18,6 +18,7 @@ if _typing.TYPE_CHECKING:
     from beal.stability.curve import ThrustCurve, thrust_curve
     from beal.stability.spectrum import Spectrum, spectrum
     from beal.study.map import stability_map
+    from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
     from beal.vehicle.file import dumps, load, loads
     from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
@@ -36,6 +37,7 @@ _HOMES = {
     "ModelError": "beal.errors",
     "Operators": "beal.discretisation.operators",
     "PointMass": "beal.vehicle.parts",
+    "RefinedMap": "beal.study.refined",
     "Release": "beal.motion",
     "Response": "beal.motion",
     "Samples": "beal.motion",
@@ -55,6 +57,7 @@ _HOMES = {
     "load": "beal.vehicle.file",
     "loads": "beal.vehicle.file",
     "plot": "beal.plot",
+    "refined_map": "beal.study.refined",
     "response": "beal.motion",
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
@@ -72,6 +75,7 @@ __all__ = [
     "ModelError",
     "Operators",
     "PointMass",
+    "RefinedMap",
     "Release",
     "Response",
     "Samples",
@@ -91,6 +95,7 @@ __all__ = [
     "load",
     "loads",
     "plot",
+    "refined_map",
     "response",
     "spectrum",
     "stability_map",

@@ -1,6 +1,10 @@
 """Every command on bad input: exit code 2 and a message that says where, what and what was expected."""
 
+import sys
+
 import pytest
+
+from beal.study import cluster
 
 STAGE = "[[stage]]\nlength = 1.0\nmass_per_length = 1.0\nbending_stiffness = 1.0\n"
 PLAIN = 'units = "nondimensional"\n'
@@ -199,10 +203,27 @@ def test_a_map_that_cannot_be_written_is_refused(beal_here, written, output):
     assert f"{output}: " in message
 
 
-def test_a_scheduler_is_refused(beal_here, written):
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (["--scheduler", "here"], ["--scheduler: must be local or an address", "'here'"]),
+        (["--scheduler", "tcp://127.0.0.1:1", "--workers", "2"], ["--workers: a scheduler has its own workers"]),
+        (["--scheduler", "tcp://127.0.0.1:1"], ["--scheduler: none answers at tcp://127.0.0.1:1"]),
+    ],
+)
+def test_a_scheduler_that_is_none_is_refused(beal_here, written, tmp_path, monkeypatch, options, expected):
+    monkeypatch.setattr(cluster, "PATIENCE", 0.2)
     written(TWO)
-    message = refusal(beal_here("map", written(STUDY, "study.toml"), "-o", "map.zarr", "--scheduler", "here:1"))
-    assert "--scheduler: clusters are not supported" in message
+    message = refusal(beal_here("map", written(STUDY, "study.toml"), "-o", "map.zarr", *options))
+    assert [part for part in expected if part not in message] == []
+    assert not (tmp_path / "map.zarr").exists()
+
+
+def test_a_scheduler_without_dask_names_the_extra(beal_here, written, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    written(TWO)
+    message = refusal(beal_here("map", written(STUDY, "study.toml"), "-o", "map.zarr", "--scheduler", "local"))
+    assert "install beal[cluster]" in message
 
 
 @pytest.mark.parametrize("output", ["model.toml", "model.toml/out", "/dev/null/out", "/proc/out"])

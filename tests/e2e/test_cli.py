@@ -281,6 +281,24 @@ def test_map_counts_what_it_wrote(result_of, written, tsto, tmp_path):
         assert (counted["lowest"], counted["highest"]) == (found.critical_thrust.min(), found.critical_thrust.max())
     assert (counted["points"], counted["status"]["solved"]) == (4, 4)
     assert counted["kind"] == {"stable": 0, "flutter": 2, "divergence": 2}
+    assert counted["method"] == {"tables": 0, "single": 4}
+
+
+def test_map_says_how_many_points_were_solved_one_by_one(beal_here, written, tsto):
+    study = f'model = "{tsto}"\n[grid]\n"stage.split" = {{values = [0.2, 0.6, 1.5]}}\n'
+    assert (
+        "; 1 invalid; 3 solved one by one\n" in beal_here("map", written(study, "study.toml"), "-o", "map.zarr").stdout
+    )
+
+
+def test_map_does_without_slow_imports(beal_here, written, tsto, tmp_path):
+    written(f'model = "{tsto}"\n[grid]\n"stage.split" = {{values = [0.2]}}\n', "study.toml")
+    script = "import sys; from beal.cli import main; sys.argv[0] = 'beal'; main()"
+    script = f"import atexit, sys; atexit.register(lambda: print(*sorted(sys.modules), sep='\\n')); {script}"
+    arguments = [sys.executable, "-c", script, "map", "study.toml", "-o", "map.zarr"]
+    printed = subprocess.run(arguments, cwd=tmp_path, capture_output=True, text=True).stdout.splitlines()
+    assert "beal.study.map" in printed
+    assert {"xarray", "pandas", "distributed", "matplotlib"} & set(printed) == set()
 
 
 @pytest.mark.parametrize("name", ["beck", "beal", "pflueger", "tsto"])

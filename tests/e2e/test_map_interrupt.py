@@ -21,7 +21,7 @@ model = "tsto.toml"
 formulation = "as-printed"  # each point by itself: time enough to interrupt between blocks
 modes = 3
 """
-BLOCKS, POINTS = 5, 5 * 256
+POINTS = 5 * 256
 
 
 @pytest.mark.parametrize("workers", [1, 2])
@@ -39,11 +39,12 @@ def test_an_interrupted_map_is_resumed(beal, result_of, written, tmp_path, worke
     assert (run.returncode, printed) == (130, "")
     assert message == "beal: interrupted; beal map study.toml -o map.zarr --resume goes on with it\n"
     kept = {path: path.stat().st_mtime_ns for path in done_blocks(output)}
-    assert 0 < len(kept) < BLOCKS
+    assert kept
 
     assert beal(*arguments).returncode == 2  # not without being asked to go on
     assert result_of(*arguments, "--resume")["status"]["solved"] == POINTS
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
+    assert len(kept) < len(done_blocks(output))
     with xarray.open_zarr(output) as found:
         assert set(found.status.values.ravel().tolist()) == {1}
 

@@ -45,6 +45,23 @@ def random_vehicle(
     )
 
 
+def random_long_vehicle(rng: np.random.Generator, stages: int) -> Vehicle:
+    """A vehicle of many stages, from alike to very unlike in length, on joints from soft to rigid."""
+    lengths = np.maximum(rng.dirichlet(np.full(stages, rng.choice([0.5, 2.0, 20.0]))), 1e-4)
+    return Vehicle(
+        stages=[
+            Stage(
+                length=x, mass_per_length=10 ** rng.uniform(-0.5, 0.5), bending_stiffness=10 ** rng.uniform(-0.5, 0.5)
+            )
+            for x in lengths.tolist()
+        ],
+        joints=[random_joint(rng, 1.0, 1e12, absent=0.0) for _ in range(stages - 1)],
+        point_masses=random_masses(rng, float(lengths.sum())),
+        support=random_support(rng) if rng.random() < 0.5 else Support(),
+        thrust=Thrust(tangency=1.0 if rng.random() < 0.6 else rng.uniform(0.0, 1.2)),
+    )
+
+
 def random_stages(rng: np.random.Generator) -> list[Stage]:
     """One to five stages of total length 1, none shorter than 0.05."""
     number = int(rng.integers(1, 6))

@@ -8,8 +8,8 @@ import pytest
 
 import beal
 from beal.study.file import load_study
-from beal.study.store import BLOCK, block_shape, blocks
-from beal.study.study import spaced
+from beal.study.store import METHODS
+from beal.study.study import Solve, Study, spaced
 
 ROTATIONAL, SHEAR = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
 VEHICLE = beal.catalog.tsto(0.6, 5000.0, 5000.0)
@@ -77,15 +77,6 @@ def test_a_study_of_a_missing_model_says_which(tmp_path):
         load_study(path)
 
 
-@pytest.mark.parametrize("shape", [(7,), (100, 100), (3, 1, 5000), (2, 3, 4, 5)])
-def test_blocks_cover_a_grid_once(shape):
-    seen = np.zeros(shape, dtype=int)
-    for block in blocks(shape):
-        seen[block] += 1
-    assert np.all(seen == 1)
-    assert np.prod(block_shape(shape)) >= min(BLOCK, np.prod(shape)) / 2
-
-
 def test_spacing_holds_both_ends_exactly():
     assert spaced(1.0, 1e4, 7, "log")[::6] == (1.0, 1e4)
     assert spaced(0.1, 0.9, 4, "linear") == pytest.approx((0.1, 0.1 + 0.8 / 3, 0.1 + 1.6 / 3, 0.9))
@@ -118,6 +109,28 @@ def test_infinite_stiffness_is_a_value_like_any_other():
     result = beal.stability_map(VEHICLE, {ROTATIONAL: [math.inf] * 7 + [1e12] * 7, SHEAR: [math.inf]})
     thrust = result["critical_thrust"].values
     assert thrust == pytest.approx(109.689191958738, rel=1e-9)
+
+
+def test_a_long_axis_is_known_by_its_hash():
+    axes = [tuple(np.linspace(1, 2, 20_000)), (*np.linspace(1, 2, 20_000)[:-1], 2.5)]
+    one, other = (Study(VEHICLE, {SHEAR: axis}, Solve()).inputs[f"grid.{SHEAR}"] for axis in axes)
+    assert one.startswith("20000 values from 1.0 to 2.0, SHA-256 ")
+    assert len(one) < 200
+    assert one != other
+
+
+def test_a_map_that_exceeds_the_memory_is_refused_with_the_way_out():
+    axes = {SHEAR: np.linspace(1, 2, 10_000), ROTATIONAL: np.linspace(1, 2, 10_000)}
+    with pytest.raises(beal.ModelError, match=r"at most 10000000 points in memory, found 100000000; name an output"):
+        beal.stability_map(VEHICLE, axes)
+
+
+def test_a_point_says_whether_tables_or_a_search_of_its_own_found_it():
+    axes = {ROTATIONAL: [1e3], SHEAR: np.geomspace(1e2, 1e4, 20)}
+    assert set(beal.stability_map(VEHICLE, axes)["method"].values.ravel()) == {METHODS.index("tables")}
+    alone = beal.stability_map(VEHICLE, {"stage.split": [0.4, 1.5]})["method"]
+    assert set(alone.values) == {METHODS.index("single")}
+    assert alone.attrs["flag_meanings"].split()[1:] == ["tables", "single"]
 
 
 @pytest.mark.parametrize("workers", [0, -1])

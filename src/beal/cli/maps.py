@@ -1,9 +1,10 @@
 """``beal map`` and ``beal reproduce``: many vehicles, with progress on standard error."""
 
+import math
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,57 +13,88 @@ from beal.cli.output import check_folder, emit, make_folder, note
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    from concurrent.futures import Executor
+
+    from beal.study.map import Progress
+    from beal.study.study import Study
 
 
 def map_study(
     study: Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (TOML).", show_default=False)],
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="OUT.zarr", help="Result.", show_default=False)],
+    output: Annotated[
+        str, typer.Option("-o", "--output", metavar="OUT.zarr", help="Folder or URL of the result.", show_default=False)
+    ],
     resume: Annotated[bool, typer.Option("--resume", help="Go on with what an earlier run left.")] = False,
-    workers: Annotated[int | None, typer.Option("--workers", metavar="N", help="Number of processes.", min=1)] = None,
-    scheduler: Annotated[str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Not available.")] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", metavar="N", help="Workers on this machine, as many as cores if left out.", min=1),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option("--scheduler", metavar="ADDRESS", help="Of a dask cluster, tcp://host:port, or local."),
+    ] = None,
+    refine: Annotated[
+        float | None,
+        typer.Option("--refine", metavar="WIDTH", help="Resolve borders to this share of each axis, such as 0.001."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Critical thrust, kind, modes, frequency and error over a grid of parameters."""
-    if scheduler is not None:
-        raise ModelError("--scheduler: clusters are not supported; leave it out and use --workers on this machine")
-    check_folder(output)
+    if "://" not in output:
+        check_folder(Path(output))
     from beal.study.file import load_study
     from beal.study.map import run_study
 
     task = load_study(study)
     try:
-        with _progress() as progress:
-            found = run_study(task, output, resume, workers, lambda done, total: progress("points", done, total))
+        with _cluster(scheduler, workers) as executor, _progress() as progress:
+            how = None if scheduler else workers, lambda done, total: progress("points", done, total), executor
+            borders = {"refined": _refined(task, refine, output, resume, *how)} if refine is not None else {}
+            found = run_study(task, output, resume or refine is not None, *how)
     except KeyboardInterrupt:
-        note(f"interrupted; beal map {study} -o {output} --resume goes on with it")
+        where = (f" --scheduler {scheduler}" if scheduler else "") + (f" --refine {refine}" if refine else "")
+        note(f"interrupted; beal map {study} -o {output}{where} --resume goes on with it")
         raise
-    data = {"file": str(output), **_counts(found)}
+    data = {"file": output, **found.named(), **borders}
     if as_json:
         emit(data)
         return
     kinds = ", ".join(f"{number} {name}" for name, number in data["kind"].items())
     failed = ", ".join(f"{number} {name}" for name, number in data["status"].items() if number and name != "solved")
-    print(f"{output}: {data['points']} points: {kinds}" + (f"; {failed}" if failed else ""))
+    single = f"; {data['method']['single']} solved one by one" if data["method"]["single"] else ""
+    print(f"{output}: {data['points']} points: {kinds}" + (f"; {failed}" if failed else "") + single)
     if data["lowest"] is not None:
         print(f"critical thrust from {data['lowest']:.6g} to {data['highest']:.6g}")
+    if borders:
+        print(
+            "borders resolved to {width:g}: {points} points more, {cells} cells; ".format(**borders["refined"]), end=""
+        )
+        print(f"a uniform grid as fine has {borders['refined']['uniform_points']} points")
 
 
-def _counts(found: "Dataset") -> dict[str, Any]:
-    """How many points of each status and kind, and the range of the critical thrust."""
-    import numpy as np
+def _refined(
+    study: "Study",
+    width: float,
+    out: str,
+    resume: bool,
+    workers: int | None,
+    progress: "Progress",
+    executor: "Executor | None",
+) -> dict[str, float]:
+    """Solves the grid and resolves the borders in it; how many points and cells that takes."""
+    from beal.study.refined import run_refined
 
-    status, kind, thrust = (found[name].values for name in ("status", "kind", "critical_thrust"))
-    statuses, kinds = (found[name].attrs["flag_meanings"].split() for name in ("status", "kind"))
-    solved = status == statuses.index("solved")
-    known = thrust[solved & np.isfinite(thrust)]
-    return {
-        "points": status.size,
-        "status": {name: int(np.sum(status == n)) for n, name in enumerate(statuses)},
-        "kind": {name: int(np.sum(kind[solved] == n)) for n, name in enumerate(kinds)},
-        "lowest": known.min() if known.size else None,
-        "highest": known.max() if known.size else None,
-    }
+    found = run_refined(study, width, out, resume, workers, progress, executor).refined
+    uniform = (math.ceil(1 / width) + 1) ** sum(points > 1 for points in study.shape)
+    return {"width": width, "points": found.sizes["point"], "cells": found.sizes["cell"], "uniform_points": uniform}
+
+
+def _cluster(scheduler: str | None, workers: int | None) -> "AbstractContextManager[Executor | None]":
+    if scheduler is None:
+        return nullcontext()
+    from beal.study.cluster import cluster
+
+    return cluster(scheduler, workers)
 
 
 def reproduce(

@@ -1,15 +1,18 @@
 """Energies and virtual work as matrices, for any basis (the theory's section on energies, term by term)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from beal.discretisation.axial import axial_force, axial_force_in_joint
-from beal.discretisation.basis import Array, Basis, Combined
+from beal.discretisation.axial import axial_force, axial_force_in_joints
+from beal.discretisation.basis import Array, Basis, Combined, Rows
 from beal.discretisation.operators import Operators
 from beal.vehicle.vehicle import Vehicle
+
+HELD: dict[str, tuple[int, ...]] = {"free": (), "clamped": (0, 1), "pinned": (0,), "sliding": (1,)}  # derivatives
 
 
 def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: bool = True) -> Operators:
@@ -35,49 +38,62 @@ def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: 
     -------
     Operators
     """
-    samples = _sample(vehicle, basis)
+    samples = sample(vehicle, basis)
     if supports:
         transformation, rigid = _admissible(vehicle, basis, samples, rigid_body)
         basis = Combined(basis, transformation)
         samples = samples.combined(transformation)
     else:
         rigid = 0
-    mass = _mass(vehicle, basis, samples)
-    bending = samples.curvature.T @ (samples.bending_stiffness[:, None] * samples.curvature)
-    geometric = samples.slope.T @ (samples.axial_force[:, None] * samples.slope)
-    for index, segment in enumerate(basis.segments):
-        if index == 0 or basis.segments[index - 1].stage == segment.stage:
-            continue
-        joint = vehicle.joints[segment.stage - 1]
-        for derivative, spring in ((0, joint.shear_stiffness), (1, joint.rotational_stiffness)):
-            if np.isfinite(spring):
-                jump = basis.jump(index, derivative)
-                bending += spring * np.outer(jump, jump)
-        if np.isfinite(joint.shear_stiffness):
-            shear = np.outer(basis.jump(index, 0), _shear_axis(basis, index, joint.shear_axis))
-            geometric += axial_force_in_joint(vehicle, segment.stage - 1) * (shear + shear.T)
-    tail, tail_slope = (basis.rows(len(basis.segments) - 1, np.array([1.0]), d)[0] for d in (0, 1))
-    follower = vehicle.thrust.tangency * np.outer(tail, tail_slope)
+    mass, bending, load = energies(vehicle, basis, samples)
     bending[:rigid] = bending[:, :rigid] = 0.0
-    return Operators(vehicle, mass, bending, follower - geometric, rigid, basis)
+    return Operators(vehicle, mass, bending, load, rigid, basis)
+
+
+def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, Rows, Rows]:
+    """M, K0 and K1 in the coordinates of a basis: dense or sparse, as its rows are."""
+    bending = _products(samples.curvature, samples.bending_stiffness)
+    geometric = _products(samples.slope, samples.axial_force)
+    chain = basis.segments
+    fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
+    for derivative, name in ((0, "shear_stiffness"), (1, "rotational_stiffness")):
+        springs = np.array([getattr(joint, name) for joint in vehicle.joints])
+        flexible = np.flatnonzero(np.isfinite(springs))
+        if not len(flexible):
+            continue
+        aft = [fronts[joint] for joint in flexible]
+        jumps = basis.jumps(aft, derivative)
+        bending = bending + _products(jumps, springs[flexible])
+        if derivative == 0:
+            axes = _shear_axes(basis, aft, [vehicle.joints[joint].shear_axis for joint in flexible])
+            couples = jumps.T @ (axes * axial_force_in_joints(vehicle)[flexible, None])
+            geometric = geometric + couples + couples.T
+    tail, tail_slope = (basis.stacked([len(chain) - 1], np.array([1.0]), d) for d in (0, 1))
+    follower = vehicle.thrust.tangency * (tail.T @ tail_slope)
+    return _mass(vehicle, basis, samples), bending, follower - geometric
 
 
 gauss = cache(leggauss)
 
 
+def _products(rows: Rows, weights: Array) -> Rows:
+    """Sum of weight * row row^T."""
+    return rows.T @ (rows * weights[:, None])
+
+
 @dataclass(frozen=True)
-class _Samples:
+class Samples:
     """Shapes at the Gauss points of all segments, with the weights of the integrals."""
 
-    deflection: Array
-    slope: Array
-    curvature: Array
+    deflection: Rows
+    slope: Rows
+    curvature: Rows
     mass: Array
     bending_stiffness: Array
     axial_force: Array
 
-    def combined(self, transformation: Array) -> "_Samples":
-        return _Samples(
+    def combined(self, transformation: Array) -> "Samples":
+        return Samples(
             self.deflection @ transformation,
             self.slope @ transformation,
             self.curvature @ transformation,
@@ -87,15 +103,16 @@ class _Samples:
         )
 
 
-def _sample(vehicle: Vehicle, basis: Basis) -> _Samples:
+def sample(vehicle: Vehicle, basis: Basis) -> Samples:
+    """A basis and the vehicle's properties at the Gauss points."""
     xi, weight = gauss(basis.quadrature)
     chain = basis.segments
     half = np.array([segment.length / 2 for segment in chain])
     weights = np.outer(half, weight)
     stations = np.array([segment.start for segment in chain])[:, None] + np.outer(half, 1 + xi)
     stages = [vehicle.stages[segment.stage] for segment in chain]
-    deflection, slope, curvature = (np.vstack([basis.rows(i, xi, d) for i in range(len(chain))]) for d in (0, 1, 2))
-    return _Samples(
+    deflection, slope, curvature = (basis.stacked(range(len(chain)), xi, d) for d in (0, 1, 2))
+    return Samples(
         deflection,
         slope,
         curvature,
@@ -105,28 +122,30 @@ def _sample(vehicle: Vehicle, basis: Basis) -> _Samples:
     )
 
 
-def _mass(vehicle: Vehicle, basis: Basis, samples: _Samples) -> Array:
-    mass = samples.deflection.T @ (samples.mass[:, None] * samples.deflection)
-    for lump in vehicle.point_masses:
-        for derivative, inertia in ((0, lump.mass), (1, lump.rotary_inertia)):
-            row = basis.at(np.array([lump.station]), derivative)[0]
-            mass += inertia * np.outer(row, row)
+def _mass(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:
+    mass = _products(samples.deflection, samples.mass)
+    if vehicle.point_masses:
+        stations = np.array([lump.station for lump in vehicle.point_masses])
+        for derivative, name in ((0, "mass"), (1, "rotary_inertia")):
+            inertia = np.array([getattr(lump, name) for lump in vehicle.point_masses])
+            mass = mass + _products(basis.at(stations, derivative), inertia)
     return mass
 
 
-def _shear_axis(basis: Basis, segment: int, axis: str) -> Array:
-    """Row of sigma, the slope of the direction along which the shear spring slides."""
-    forward = basis.rows(segment - 1, np.array([1.0]), 1)[0]
-    aft = basis.rows(segment, np.array([-1.0]), 1)[0]
-    return {"forward": forward, "aft": aft, "mean": (forward + aft) / 2, "inertial": np.zeros(basis.size)}[axis]
+def _shear_axes(basis: Basis, segments: Sequence[int], axes: Sequence[str]) -> Rows:
+    """Rows of sigma, the slope of the direction along which each shear spring slides."""
+    share = np.array([{"forward": 1.0, "mean": 0.5, "aft": 0.0, "inertial": 0.0}[axis] for axis in axes])
+    fixed = np.array([axis == "inertial" for axis in axes])
+    forward = basis.stacked([index - 1 for index in segments], np.array([1.0]), 1)
+    aft = basis.stacked(segments, np.array([-1.0]), 1)
+    return forward * share[:, None] + aft * (1.0 - share - fixed)[:, None]
 
 
-def _admissible(vehicle: Vehicle, basis: Basis, samples: _Samples, rigid_body: bool) -> tuple[Array, int]:
+def _admissible(vehicle: Vehicle, basis: Basis, samples: Samples, rigid_body: bool) -> tuple[Array, int]:
     """Combinations of the raw coordinates that satisfy the supports: rigid-body motions first, then elastic ones."""
-    held = {"free": (), "clamped": (0, 1), "pinned": (0,), "sliding": (1,)}
-    last = len(basis.segments) - 1
-    rows = [basis.rows(0, np.array([-1.0]), d)[0] for d in held[vehicle.support.nose]]
-    rows += [basis.rows(last, np.array([1.0]), d)[0] for d in held[vehicle.support.tail]]
+    ends = ((0, -1.0), (len(basis.segments) - 1, 1.0))
+    held = zip(ends, (vehicle.support.nose, vehicle.support.tail), strict=True)
+    rows = [basis.rows(segment, np.array([xi]), d)[0] for (segment, xi), end in held for d in HELD[end]]
     constraints = np.array(rows).reshape(-1, basis.size)
     on_rigid, on_strain = constraints[:, :2] * (1.0, 1 / vehicle.length), constraints[:, 2:]
     u, singular, vt = np.linalg.svd(on_rigid, full_matrices=True)
@@ -141,11 +160,15 @@ def _admissible(vehicle: Vehicle, basis: Basis, samples: _Samples, rigid_body: b
         mass = _mass(vehicle, basis, samples)
         modal = rigid.T @ mass @ rigid
         elastic = elastic - rigid @ np.linalg.solve(modal, rigid.T @ mass @ elastic)
-        lower = np.linalg.cholesky(modal)
-        rigid = np.linalg.solve(lower, rigid.T).T * vehicle.scales.time  # as large as the elastic coordinates
+        rigid = normalised(vehicle, modal, rigid)
     if not rigid_body:
         rigid = rigid[:, :0]
     return np.hstack((rigid, elastic)), rigid.shape[1]
+
+
+def normalised(vehicle: Vehicle, modal: Array, rigid: Array) -> Array:
+    """Rigid-body motions M-orthogonal and as large as the elastic coordinates; ``modal`` is their M."""
+    return np.asarray(np.linalg.solve(np.linalg.cholesky(modal), rigid.T).T * vehicle.scales.time)
 
 
 def _null_space(constraints: Array) -> Array:

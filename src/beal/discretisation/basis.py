@@ -1,8 +1,10 @@
 """Shape functions over a chain of segments: what every basis shares."""
 
 from abc import ABC, abstractmethod
+from bisect import bisect_left
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +12,7 @@ from numpy.typing import NDArray
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
+Rows = Any  # ndarray or sparse array of one row per reading of the shapes
 SNAP = 1e-9  # share of the length within which a station counts as a segment's end
 
 
@@ -31,12 +34,12 @@ def segments(vehicle: Vehicle, pieces: int = 1) -> tuple[Segment, ...]:
 
     A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
     """
-    loads = [lump.station for lump in vehicle.point_masses] + [force.station for force in vehicle.forces]
+    loads = sorted([lump.station for lump in vehicle.point_masses] + [force.station for force in vehicle.forces])
+    margin = SNAP * vehicle.length
     chain = []
     for stage, (front, back) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False)):
-        margin = SNAP * vehicle.length
         ends = [front]
-        for station in sorted(loads):
+        for station in loads[bisect_left(loads, front) : bisect_left(loads, back)]:
             if ends[-1] + margin < station < back - margin:
                 ends.append(station)
         ends.append(back)
@@ -65,27 +68,34 @@ class Basis(ABC):
     def rows(self, segment: int, xi: Array, derivative: int) -> Array:
         """Values of a derivative of all shapes at xi in [-1, 1] of a segment, shape (len(xi), size)."""
 
-    def locate(self, station: float, side: Literal["aft", "forward"] = "aft") -> tuple[int, float]:
-        """Segment and xi of a station; where two segments meet, the one on the given side."""
+    def located(self, stations: Array, side: Literal["aft", "forward"]) -> tuple[NDArray[np.intp], Array]:
+        """Segments and xi of stations, each of shape (len(stations),); where two meet, the one on the given side."""
         margin = SNAP * self.segments[-1].end
         shift = margin if side == "aft" else -margin
         starts = np.array([segment.start for segment in self.segments])
-        index = int(np.clip(np.searchsorted(starts, station + shift, side="right") - 1, 0, len(starts) - 1))
-        segment = self.segments[index]
-        return index, float(np.clip(2 * (station - segment.start) / segment.length - 1, -1, 1))
+        lengths = np.array([segment.length for segment in self.segments])
+        index = np.clip(np.searchsorted(starts, stations + shift, side="right") - 1, 0, len(starts) - 1)
+        return index, np.clip(2 * (stations - starts[index]) / lengths[index] - 1, -1, 1)
 
-    def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Array:
+    def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Rows:
         """Values of a derivative of all shapes at stations, shape (len(stations), size)."""
         rows = np.empty((len(stations), self.size))
-        for row, station in zip(rows, stations, strict=True):
-            segment, xi = self.locate(float(station), side)
-            row[:] = self.rows(segment, np.array([xi]), derivative)[0]
+        for row, segment, xi in zip(rows, *self.located(stations, side), strict=True):
+            row[:] = self.rows(int(segment), np.array([xi]), derivative)[0]
         return rows
 
     def jump(self, segment: int, derivative: int) -> Array:
         """[[f]] = f(aft side) - f(forward side) across the front of a segment, shape (size,)."""
         aft = self.rows(segment, np.array([-1.0]), derivative)[0]
         return aft - self.rows(segment - 1, np.array([1.0]), derivative)[0]
+
+    def stacked(self, segments: Sequence[int], xi: Array, derivative: int) -> Rows:
+        """Rows of several segments below each other, shape (len(segments) * len(xi), size)."""
+        return np.array([self.rows(i, xi, derivative) for i in segments]).reshape(-1, self.size)
+
+    def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
+        """Jumps across the fronts of several segments, shape (len(segments), size)."""
+        return np.array([self.jump(i, derivative) for i in segments]).reshape(-1, self.size)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from beal.discretisation.assembly import assemble
-from beal.discretisation.basis import Basis
+from beal.discretisation.basis import Basis, segments
 from beal.discretisation.hermite import HermiteBasis
 from beal.discretisation.legendre import LegendreBasis
 from beal.discretisation.modes import ModeBasis
@@ -19,6 +19,7 @@ FORMULATIONS: tuple[Formulation, ...] = get_args(Formulation)
 RITZ: dict[str, Literal["natural", "printed"]] = {"corrected-ritz": "natural", "as-printed": "printed"}
 DEFAULT_ORDER = {"legendre": 10, "hermite": 16}
 PAPER_MODES = 8
+LARGEST = 5000
 
 
 def discretise(
@@ -57,24 +58,36 @@ def discretise(
     >>> discretise(catalog.beck(), order=8).K0.shape
     (9, 9)
     """
-    if formulation not in FORMULATIONS:
-        raise ModelError(f"formulation: must be one of {', '.join(FORMULATIONS)}, found {formulation!r}")
+    check_formulation(formulation)
     if order is not None and order < 1:
         raise ModelError(f"order: must be at least 1, found {order}")
     if formulation in RITZ:
         check_ritz(vehicle, formulation)
         modes = ModeBasis(vehicle, order or PAPER_MODES, RITZ[formulation])
-        return assemble(_inertial(vehicle), modes, supports=False)
+        return assemble(inertial(vehicle), modes, supports=False)
     if basis not in DEFAULT_ORDER:
         raise ModelError(f"basis: must be one of {', '.join(DEFAULT_ORDER)}, found {basis!r}")
+    degree = order or DEFAULT_ORDER[basis]
+    size = len(segments(vehicle)) * (degree + 1 if basis == "legendre" else 2 * degree) + 2 * len(vehicle.joints)
+    if size > LARGEST:
+        raise ModelError(
+            f"order: {degree} gives some {size} coordinates, too many for dense matrices (at most {LARGEST}): "
+            "lower it, or ask for the critical thrust or the modes, which reduce a large vehicle in the default basis"
+        )
     shapes: Basis
-    shapes = (LegendreBasis if basis == "legendre" else HermiteBasis)(vehicle, order or DEFAULT_ORDER[basis])
+    shapes = (LegendreBasis if basis == "legendre" else HermiteBasis)(vehicle, degree)
     if formulation == "converged":
-        return assemble(_inertial(vehicle), shapes, rigid_body=False)
+        return assemble(inertial(vehicle), shapes, rigid_body=False)
     return assemble(vehicle, shapes)
 
 
-def _inertial(vehicle: Vehicle) -> Vehicle:
+def check_formulation(formulation: str) -> None:
+    """Refuse what is not the name of a formulation."""
+    if formulation not in FORMULATIONS:
+        raise ModelError(f"formulation: must be one of {', '.join(FORMULATIONS)}, found {formulation!r}")
+
+
+def inertial(vehicle: Vehicle) -> Vehicle:
     """The vehicle with every joint sliding along a direction fixed in space."""
     joints = tuple(joint.model_copy(update={"shear_axis": "inertial"}) for joint in vehicle.joints)
     return vehicle.model_copy(update={"joints": joints})

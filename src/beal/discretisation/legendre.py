@@ -76,11 +76,11 @@ class LegendreBasis(Basis):
 @lru_cache(maxsize=256)
 def _polynomials(order: int, times: int, xi: tuple[float, ...]) -> Array:
     """P_0..P_order integrated from -1 ``times`` times, at xi; the same few points come again for every segment."""
-    return legendre.legvander(np.array(xi), order + 2) @ _integrals(order, times)
+    return legendre.legvander(np.array(xi), order + 2) @ integrals(order, times)
 
 
 @cache
-def _integrals(order: int, times: int) -> Array:
+def integrals(order: int, times: int) -> Array:
     """Legendre coefficients of P_0..P_order integrated from -1 ``times`` times, shape (order + 3, order + 1)."""
     integrated = legendre.legint(np.eye(order + 1), m=times, lbnd=-1) if times else np.eye(order + 1)
     coefficients = np.zeros((order + 3, order + 1))

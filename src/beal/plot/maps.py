@@ -8,10 +8,13 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
+from beal.plot.refined import draw, regions
 from beal.plot.style import BLACK, axes
+from beal.study.refined import RefinedMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
     from matplotlib.collections import QuadMesh
     from xarray import Dataset
 
@@ -25,7 +28,7 @@ NAMES = {
 
 
 def stability_map(
-    chart: "Dataset",
+    chart: "Dataset | RefinedMap",
     ax: "Axes | None" = None,
     levels: Sequence[float] | None = None,
     colorbar: bool = True,
@@ -33,12 +36,15 @@ def stability_map(
     """Draw the critical thrust over the two axes of a map.
 
     Colour is the critical thrust; black lines part regions in which another kind of instability, or another pair of
-    modes, comes first; divergence is hatched; points that are stable to the end of the search are white.
+    modes, comes first; divergence is hatched; points that are stable to the end of the search are white. In a refined
+    map the lines are smooth, lines part regions between which the thrust alone jumps too, and white contour lines of
+    the critical thrust end at them.
 
     Parameters
     ----------
-    chart : Dataset
-        From `beal.stability_map`, with two dimensions; both axes are drawn logarithmically where they are positive.
+    chart : Dataset or RefinedMap
+        From `beal.stability_map`, with two dimensions, both drawn logarithmically where they are positive; or from
+        `beal.refined_map`, drawn in the spacing in which it was refined.
     ax : Axes, optional
     levels : sequence of float, optional
         Thrusts at which the colour changes; by default it changes continuously.
@@ -47,28 +53,40 @@ def stability_map(
     Returns
     -------
     Axes
+
+    Raises
+    ------
+    ModelError
+        If a refined map has other than two axes.
     """
     ax = axes(ax)
-    across, up = chart.critical_thrust.dims
-    x, y = (np.asarray(chart[name], dtype=float) for name in (across, up))
-    x_edges, y_edges = _edges(x), _edges(y)
-    region = _regions(chart)
-    mesh = _colours(ax, x_edges, y_edges, np.asarray(chart.critical_thrust, dtype=float), levels)
-    _hatching(ax, x_edges, y_edges, np.asarray(chart.kind) == DIVERGENCE)
-    _borders(ax, x_edges, y_edges, region)
-    _labels(ax, x, y, region)
-    for name, values, scale, label in (
-        (across, x, ax.set_xscale, ax.set_xlabel),
-        (up, y, ax.set_yscale, ax.set_ylabel),
-    ):
-        if (values > 0).all():
-            scale("log")
-        label(NAMES.get(str(name), str(name)))
+    mesh: ScalarMappable | None = draw(ax, chart, levels) if isinstance(chart, RefinedMap) else None
+    grid = chart.grid if isinstance(chart, RefinedMap) else chart
+    across, up = grid.critical_thrust.dims
+    x, y = (np.asarray(grid[name], dtype=float) for name in (across, up))
+    x_edges, y_edges = (x, y) if mesh else (_edges(x), _edges(y))
+    mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
+    _labels(ax, x, y, regions(grid))
+    ax.set_xlabel(NAMES.get(str(across), str(across)))
+    ax.set_ylabel(NAMES.get(str(up), str(up)))
     ax.set_xlim(x_edges[0], x_edges[-1])
     ax.set_ylim(y_edges[0], y_edges[-1])
     if colorbar:
         ax.figure.colorbar(mesh, ax=ax, label="critical thrust $P L^2/EI$")
     return ax
+
+
+def _cells(
+    ax: "Axes", x: NDArray[Any], y: NDArray[Any], chart: "Dataset", levels: Sequence[float] | None
+) -> "QuadMesh":
+    """A cell around each point of a grid, between edges x and y."""
+    mesh = _colours(ax, x, y, np.asarray(chart.critical_thrust, dtype=float), levels)
+    _hatching(ax, x, y, np.asarray(chart.kind) == DIVERGENCE)
+    _borders(ax, x, y, regions(chart))
+    for edges, scale in ((x, ax.set_xscale), (y, ax.set_yscale)):
+        if (edges > 0).all():
+            scale("log")
+    return mesh
 
 
 def _colours(
@@ -137,12 +155,6 @@ def _depth(inside: NDArray[np.bool_]) -> NDArray[np.float64]:
             break
         grown = core
     return depth
-
-
-def _regions(chart: "Dataset") -> NDArray[np.int_]:
-    """One number for each kind and pair of modes."""
-    kind, low, high = (np.asarray(chart[name]).astype(int) for name in ("kind", "mode_low", "mode_high"))
-    return np.where(kind == 0, 0, 10_000 * kind + 100 * low + high)
 
 
 def _name(region: int) -> str:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -12,9 +13,11 @@ from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
 from beal.stability.double_root import CriticalPoint
+from beal.stability.kernels.rules import BORDER
+from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
-from beal.stability.refine import FIRST_ORDER, refined, settled
+from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined, settled
 from beal.stability.ridge import Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
 from beal.stability.zero_roots import mechanism, rigid_body_root
@@ -49,6 +52,9 @@ class CriticalThrust:
         Number of elastic modes that were looked at; what happens among higher ones is not seen.
     rigid_body : {"neutral", "tumbling", "held"}
         Whether a thrust drives the rigid-body attitude away (``tumbling``), leaves it alone, or the supports hold it.
+    border : bool
+        Whether another kind of instability, or another pair of modes, comes at practically the same thrust (relative
+        difference 1e-6), so that ``kind`` and ``modes`` are those of one side of a border.
     elastic : CriticalThrust or None
         For a vehicle that tumbles, whose critical thrust is 0: what its elastic modes alone would bear.
     """
@@ -62,6 +68,7 @@ class CriticalThrust:
     searched_to: float
     watched_modes: int
     rigid_body: Literal["neutral", "tumbling", "held"]
+    border: bool = False
     elastic: "CriticalThrust | None" = None
 
 
@@ -117,7 +124,9 @@ def critical_thrust(
     Notes
     -----
     Undamped. The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
-    higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported.
+    higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported. Vehicles of a
+    dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
+    with many soft joints the lowest 32 modes are looked at.
 
     Examples
     --------
@@ -136,8 +145,14 @@ def critical_thrust(
         if formulation in RITZ:
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
+        tolerance = tolerance or TOLERANCE[basis]
+        if basis == "legendre" and is_large(vehicle):
+            large = Reduction(vehicle, formulation)
+            task = replace(task, watched=large.watched)
+            return _solve(task, large.operators, method, lambda found: refined(found, large.points(found), tolerance))
         operators = discretise(vehicle, formulation, basis, FIRST_ORDER[basis])
-        return _solve(task, operators, method, lambda found: refined(vehicle, formulation, basis, found, tolerance))
+        points = partial(ladder, vehicle, formulation, basis)
+        return _solve(task, operators, method, lambda found: refined(found, points(found), tolerance))
 
 
 def critical_events(
@@ -163,15 +178,25 @@ def critical_events(
         From one eigenvalue problem, so none is skipped for the size of a step.
     """
     with one_thread():
+        large = None
         operators = vehicle
         if isinstance(operators, Vehicle):
-            operators = discretise(operators, formulation, order=modes if formulation in RITZ else 12)
+            if formulation not in RITZ and is_large(operators):
+                large = Reduction(operators, formulation)
+                operators = large.operators
+            else:
+                operators = discretise(operators, formulation, order=modes if formulation in RITZ else 12)
         task = _task(operators.vehicle, max_thrust, formulation)
         full = pencil(operators)
-        small = reduced(full, task.watched + COMPLETE_SPARE)
+        watched = large.watched if large else task.watched
+        small = reduced(full, watched + COMPLETE_SPARE)
+        found = events(small, task.limit, watched)
+        if large:
+            large.refine()
         polished = []
-        for event in events(small, task.limit, task.watched):
-            point = settled(Instability(_start(event.thrust, event.W), event.kind, event.modes), full)[0]
+        for event in found:
+            guess = Instability(_start(event.thrust, event.W), event.kind, event.modes)
+            point = large.corrected(guess) if large else settled(guess, full)[0]
             polished.append(replace(event, thrust=point.thrust, W=point.W) if point.converged else event)
         return polished
 
@@ -212,6 +237,7 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
             modes=found.modes,
             angular_frequency=omega,
             error_estimate=error,
+            border=found.border,
         )
     if drift == "tumbling":
         return replace(
@@ -235,9 +261,11 @@ def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
     if method == "fast":
         return Search(small, task.limit, task.steps, task.watched).first()
     own = rigid_body_root(small, task.limit) == "tumbling"  # a root that may come back and leave again
-    for event in events(small, task.limit, task.watched):
+    found = events(small, task.limit, task.watched)
+    for event in found:
         if event.unstable > max(event.before, own and event.kind == "divergence"):
-            return Instability(_start(event.thrust, event.W), event.kind, event.modes)
+            border = sum(abs(other.thrust - event.thrust) < BORDER * event.thrust for other in found) > 1
+            return Instability(_start(event.thrust, event.W), event.kind, event.modes, border)
     return None
 
 

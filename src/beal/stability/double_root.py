@@ -161,6 +161,19 @@ def divergence(pencil: Pencil, thrust: float, neutral: bool = False) -> Critical
     return _point(pencil, thrust, 0.0, converged, here, change, slope)
 
 
+def chained(pencil: Pencil, point: CriticalPoint) -> tuple[Array, Array]:
+    """The second vectors of a double root, (K - W M) x' = M x and its transpose, right and left, shape (n,)."""
+    n = len(point.right)
+    matrix = np.zeros((n + 1, n + 1))
+    matrix[:n, :n] = pencil.stiffness(point.thrust) - point.W * pencil.M
+    matrix[:n, n] = point.left / np.linalg.norm(point.left)
+    matrix[n, :n] = point.right / np.linalg.norm(point.right)
+    factor = scipy.linalg.lu_factor(matrix)
+    right = scipy.linalg.lu_solve(factor, np.append(pencil.M @ point.right, 0.0))
+    left = scipy.linalg.lu_solve(factor, np.append(pencil.M @ point.left, 0.0), trans=1)
+    return right[:n], left[:n]
+
+
 def _point(
     pencil: Pencil, thrust: float, W: float, converged: bool, at: _Bordered, change: Array, slope: float
 ) -> CriticalPoint:

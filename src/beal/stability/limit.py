@@ -18,9 +18,9 @@ def default_limit(vehicle: Vehicle) -> float:
     integral of sqrt(N/EI) dx = 5 pi, with N = P n(x).
     """
     xi, weight = gauss(8)
-    phase = 0.0
-    for segment in segments(vehicle):
-        stations = segment.start + segment.length * (1 + xi) / 2
-        stiffness = vehicle.stages[segment.stage].bending_stiffness
-        phase += segment.length / 2 * float(weight @ np.sqrt(axial_force(vehicle, stations) / stiffness))
+    chain = segments(vehicle)
+    start, length = np.array([(segment.start, segment.length) for segment in chain]).T[:, :, None]
+    stiffness = np.array([[vehicle.stages[segment.stage].bending_stiffness] for segment in chain])
+    density = np.sqrt(axial_force(vehicle, start + length * (1 + xi) / 2) / stiffness)
+    phase = float(np.sum(length / 2 * density * weight))
     return (HALF_WAVES * math.pi / phase) ** 2

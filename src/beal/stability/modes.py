@@ -1,11 +1,16 @@
 """Frequencies of a vehicle, its discretisation refined until they no longer change."""
 
+from collections.abc import Iterator
+from functools import partial
+
 import numpy as np
 
 from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.errors import ConvergenceError, ModelError
+from beal.stability.large import Reduction, is_large
 from beal.stability.pencil import Array
 from beal.stability.spectrum import Spectrum, spectrum
+from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
 ORDERS = (10, 14, 20, 28, 40, 56, 80, 112)
@@ -53,20 +58,27 @@ def converged_modes(
         raise ModelError(f"count: must lie between 1 and {MOST_MODES}, found {count}")
     before: Array | None = None
     best: tuple[float, Spectrum, Array] | None = None
-    for order in ORDERS:
-        operators = discretise(vehicle, formulation, order=order)
-        if len(operators.M) - operators.rigid < count:
-            continue
-        found = spectrum(operators, thrust, count)
-        omega = np.sort(found.angular_frequency)
-        if before is not None:
-            error = np.abs(omega - before)
-            change = float(np.max(error / np.maximum(omega, vehicle.scales.angular_frequency)))
-            if best is None or change < best[0]:
-                best = change, found, error
-            if change < GOOD:
-                break
-        before = omega
+    large = is_large(vehicle)
+    with one_thread():
+        spectra = Reduction(vehicle, formulation, count).spectra if large else partial(_spectra, vehicle, formulation)
+        for found in spectra(thrust, count):
+            omega = np.sort(found.angular_frequency)
+            if before is not None:
+                error = np.abs(omega - before)
+                change = float(np.max(error / np.maximum(omega, vehicle.scales.angular_frequency)))
+                if best is None or change < best[0]:
+                    best = change, found, error
+                if change < GOOD:
+                    break
+            before = omega
     if best is None or best[0] > POOR:
         raise ConvergenceError(f"modes: {count} frequencies do not converge; ask for fewer")
     return best[1:]
+
+
+def _spectra(vehicle: Vehicle, formulation: Formulation, thrust: float, count: int) -> Iterator[Spectrum]:
+    """The lowest elastic modes in finer and finer discretisations."""
+    for order in ORDERS:
+        operators = discretise(vehicle, formulation, order=order)
+        if len(operators.M) - operators.rigid >= count:
+            yield spectrum(operators, thrust, count)

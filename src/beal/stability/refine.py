@@ -1,7 +1,7 @@
 """From a critical point of a reduced problem to that of the vehicle, with an estimate of what is left of the error."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from beal.discretisation.build import BasisName, Formulation, discretise
@@ -34,16 +34,13 @@ def settled(found: Instability, full: Pencil) -> tuple[CriticalPoint, float]:
     return point, point.uncertainty
 
 
-def refined(
-    vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability, tolerance: float | None
-) -> tuple[CriticalPoint, float]:
-    """The critical point as the discretisation is refined until its own estimate meets the tolerance."""
+def refined(found: Instability, points: Iterable[CriticalPoint], tolerance: float) -> tuple[CriticalPoint, float]:
+    """The first of ever finer discretisations' critical points whose own error estimate meets the tolerance."""
     if found.point.thrust == 0.0:
         return found.point, 0.0
     thrusts: list[float] = []
     error = math.inf
-    tolerance = tolerance or TOLERANCE[basis]
-    for point in _ladder(vehicle, formulation, basis, found):
+    for point in points:
         thrusts.append(point.thrust)
         if len(thrusts) < 3:
             continue
@@ -64,9 +61,7 @@ def _remaining(before: float, last: float, rounding: float) -> float:
     return last * last / before if last > rounding else SAMPLED * last
 
 
-def _ladder(
-    vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability
-) -> Iterator[CriticalPoint]:
+def ladder(vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability) -> Iterator[CriticalPoint]:
     """The critical point in finer and finer discretisations, each started from the one before."""
     thrust, W = found.point.thrust, found.point.W
     order = FIRST_ORDER[basis]

@@ -17,25 +17,35 @@ from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError
 from beal.stability.double_root import CriticalPoint, coalescence, divergence
+from beal.stability.kernels.rules import BORDER, DIP, FLAT
 from beal.stability.pencil import Array, ComplexArray, Pencil
 from beal.stability.zero_roots import ZERO, rigid_body_root
 
 Kind = Literal["flutter", "divergence"]
 
 REAL = 1e-4  # relative imaginary part up to which rounding may split a pair of real roots that nearly meet
-FLAT = 1e-9  # height, as a share of the ridge's at the start, above which -height still counts as touching zero
-DIP = 0.5  # an interval is looked at again where a ridge dips below this share of its height at both ends
 SOFT = 4.0 ** np.arange(-6, 0)  # shares of the first coarse interval, for joints much softer than the stages
 NARROW = 1e-7  # share of the thrust searched below which an interval is not divided further
 
 
 @dataclass(frozen=True)
 class Instability:
-    """The first critical point, its kind and the elastic modes that meet, counted from 1 (0: a rigid-body root)."""
+    """The first critical point.
+
+    Parameters
+    ----------
+    point : CriticalPoint
+    kind : {"flutter", "divergence"}
+    modes : tuple of int
+        The elastic modes that meet, counted from 1; 0 stands for a rigid-body root.
+    border : bool
+        Whether another instability comes at practically the same thrust.
+    """
 
     point: CriticalPoint
     kind: Kind
     modes: tuple[int, int]
+    border: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,11 +95,19 @@ class Search:
         self._pairs = min(watched + pencil.rigid, len(pencil.M)) - 1
         self._sign = (-1.0) ** np.arange(self._pairs + 1)
         self._scale = np.ones(self._pairs + 1)
-        scale = np.zeros(self._pairs + 1)
-        for thrust in (0.0, 1e-3 * limit, limit / steps):  # a ridge between zero roots has no height at first
+        self._scale = self._scales(limit, steps)
+
+    def _scales(self, limit: float, steps: int) -> Array:
+        """Heights of the ridges at the start, or a little later for those between zero roots, which have none there."""
+        start = self.state(0.0)
+        low = np.append(0.0, start.roots[: self._pairs + 1].real)
+        apart = np.diff(low) > REAL * (np.abs(low[1:]) + ZERO * self.pencil.shift)
+        scale = np.where(apart, np.abs(start.heights), 0.0) if start.real else np.zeros(self._pairs + 1)
+        for thrust in (1e-3 * limit, limit / steps):
             height = np.abs(self.state(thrust).heights)
-            scale = np.where(scale > FLAT * height, scale, height) if len(height) else scale
-        self._scale = scale
+            if len(height):
+                scale = np.where((scale == 0) | (~apart & (scale <= FLAT * height)), height, scale)
+        return scale
 
     def state(self, thrust: float) -> State:
         """Roots and ridges at one thrust."""
@@ -193,7 +211,7 @@ class Search:
             return None
         lowest = self._lowest + 1 - (0 if self._drift == "neutral" else self.pencil.rigid)
         modes = (lowest, lowest) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
-        return Instability(point, kind, modes)
+        return Instability(point, kind, modes, _on_border(before, point))
 
 
 def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:
@@ -201,6 +219,14 @@ def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:
     roots = pencil.roots(thrust)
     first = int(np.argmin(np.abs(roots[1:] - W) + np.abs(roots[:-1] - W))) + 1 - pencil.rigid
     return first, first + 1
+
+
+def _on_border(before: State, point: CriticalPoint) -> bool:
+    """Whether a ridge beside that of a critical point reaches zero at practically the same thrust."""
+    heights = before.heights + (point.thrust - before.thrust) * before.slopes
+    near = heights < BORDER * point.thrust * np.abs(before.slopes)
+    near[np.argmin(np.abs(before.ridges - point.W))] = False
+    return bool(near.any())
 
 
 def _ridges(roots: ComplexArray, pairs: int) -> Array:

@@ -1,14 +1,16 @@
-"""Vehicles that differ in their joints' springs only, solved together on tables of their characteristic function."""
+"""Vehicles that differ in joint springs or tangency only, solved together on tables."""
 
+import math
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation import Formulation
+from beal.stability.kernels.rules import DIVERGENCE, FLUTTER, STABLE, UNDECIDED
 from beal.stability.limit import default_limit
-from beal.stability.scan import DIVERGENCE, FLUTTER, STABLE, UNDECIDED, scan
-from beal.stability.table import Degrees, Spring, Table, tables
+from beal.stability.scan import Found, scan
+from beal.stability.table import TANGENCY, Panel, panel, reference, weights
 from beal.stability.threads import one_thread
 from beal.study.study import Solve
 from beal.vehicle.vehicle import Vehicle
@@ -17,62 +19,83 @@ Array = NDArray[np.float64]
 
 WORTHWHILE = 12  # vehicles from which on a table costs less than solving each by itself
 PANELS = 4  # on which the thrusts up to the default limit are tabulated, each when it is needed
-DEGREES = (Degrees(14, 20, 14), Degrees(12, 16, 12))  # the second for the error estimate
+SOFT = 2.0  # stiffness, as a share of the stage's, below which a joint is soft
+GRADED = (1 / 64, 1 / 8)  # shares of the first panel at which it is divided for vehicles with soft joints
 FLOOR = 1e-12  # relative rounding of the critical thrust
 TABULATED: tuple[Formulation, ...] = ("objective", "converged")
 
 
-def solve_springs(
-    vehicle: Vehicle, springs: tuple[Spring, ...], stiffnesses: Array, solve: Solve
-) -> tuple[NDArray[np.intp], Array]:
+def solve_together(vehicle: Vehicle, paths: tuple[str, ...], values: Array, solve: Solve) -> Found:
     """First instability of each vehicle, where the tables decide it to the tolerance.
 
     Parameters
     ----------
     vehicle : Vehicle
-        All but the springs.
-    springs : tuple of (joint, name)
-    stiffnesses : ndarray, shape (vehicles, springs)
-        Not negative, possibly infinite.
+        All but the parameters.
+    paths : tuple of str
+        Of the parameters, see `beal.stability.table.tabulated`.
+    values : ndarray, shape (vehicles, parameters)
+        Springs not negative, possibly infinite; a tangency between 0 and 2.
     solve : Solve
 
     Returns
     -------
-    kind : ndarray of int, shape (vehicles,)
-        As in `beal.stability.scan`; undecided vehicles are to be solved one by one.
-    values : ndarray, shape (4, vehicles)
-        Critical thrust, lower mode, angular frequency, error estimate.
+    Found
+        Undecided vehicles are to be solved one by one.
     """
-    kind = np.full(len(stiffnesses), UNDECIDED)
-    values = np.full((4, len(stiffnesses)), np.nan)
+    count = len(values)
+    kind, mode = np.full(count, UNDECIDED), np.zeros(count, dtype=np.intp)
+    thrust, W, error = np.full((3, count), np.nan)
+    result = Found(kind, mode, thrust, W, error, np.zeros(count, dtype=bool))
     if solve.formulation not in TABULATED:
-        return kind, values
+        return result
     natural = default_limit(vehicle)
     limit = solve.max_thrust or natural
-    left = np.arange(len(stiffnesses))
-    for panel in range(int(np.ceil(PANELS * limit / natural))):
-        with one_thread():
-            pair = _pair(vehicle, springs, solve.formulation, panel, natural / PANELS)
-            if pair is None or not len(left):
+    springs = [(column, path) for column, path in enumerate(paths) if path != TANGENCY]
+    soft = np.zeros(count, dtype=bool)
+    for column, path in springs:
+        soft |= values[:, column] < SOFT * reference(vehicle, path)
+    even = np.arange(math.ceil(PANELS * limit / natural) + 1) * natural / PANELS
+    for crowded, edges in ((False, even), (True, np.concatenate(([0.0], even[1] * np.array(GRADED), even[1:])))):
+        left = np.flatnonzero(soft == crowded)
+        for low, high in zip(edges[:-1], edges[1:], strict=True):
+            if not len(left):
                 break
-            found = scan(*pair, stiffnesses[left])
+            with one_thread():
+                tables = _panel(vehicle, paths, solve.formulation, (float(low), float(high)), crowded)
+            if tables is None:
+                break
+            found = scan(tables, weights(vehicle, paths, values[left]))
+            _settle(result, left, found, limit, solve.tolerance)
+            stable = found.kind == STABLE
+            result.border[left] |= found.border
+            if high >= limit:
+                result.kind[left[stable]] = STABLE
+            left = left[stable & (high < limit)]
+    return result
+
+
+def _settle(result: Found, left: NDArray[np.intp], found: Found, limit: float, tolerance: float) -> None:
+    """Keeps what was found within the limit and the tolerance; what lies beyond the limit is stable."""
+    unstable = (found.kind == FLUTTER) | (found.kind == DIVERGENCE)
+    with np.errstate(invalid="ignore"):
+        beyond = unstable & (found.thrust > limit)
         error = found.error + FLOOR * found.thrust
-        settled = (found.kind == FLUTTER) | (found.kind == DIVERGENCE)
-        beyond = settled & (found.thrust > limit)
-        good = settled & ~beyond & (error <= solve.tolerance * found.thrust)
-        kind[left[good]] = found.kind[good]
-        values[:, left[good]] = np.array((found.thrust, found.ridge, np.sqrt(found.W), error))[:, good]
-        last = pair[0].high >= limit
-        kind[left[beyond | ((found.kind == STABLE) & last)]] = STABLE
-        left = left[(found.kind == STABLE) & (not last)]
-    return kind, values
+        good = unstable & ~beyond & (error <= tolerance * found.thrust)
+    result.kind[left[beyond]] = STABLE
+    for kept, new in (
+        (result.kind, found.kind),
+        (result.mode, found.mode),
+        (result.thrust, found.thrust),
+        (result.W, found.W),
+        (result.error, error),
+    ):
+        kept[left[good]] = new[good]
 
 
 @lru_cache(maxsize=32)
-def _pair(
-    vehicle: Vehicle, springs: tuple[Spring, ...], formulation: Formulation, panel: int, width: float
-) -> tuple[Table, Table] | None:
-    """Tables of one panel of thrusts in two discretisations; None where they do not apply."""
-    edges = panel * width, (panel + 1) * width
-    pair = [tables(vehicle, springs, formulation, edges, degrees) for degrees in DEGREES]
-    return None if pair[0] is None or pair[1] is None else (pair[0], pair[1])
+def _panel(
+    vehicle: Vehicle, paths: tuple[str, ...], formulation: Formulation, ends: tuple[float, float], soft: bool
+) -> Panel | None:
+    """Tables of one panel of thrusts; None where they do not apply."""
+    return panel(vehicle, paths, formulation, ends, soft)

@@ -11,7 +11,7 @@ from beal.study.study import Solve, Study, spaced
 from beal.vehicle.base import Part, problems, si
 from beal.vehicle.file import load, read_toml
 
-MAX_AXIS = 100_000
+MAX_AXIS = 1_000_000
 
 
 class AxisEntry(Part):

@@ -1,11 +1,11 @@
 """Stability maps: the critical thrust over a grid of vehicles."""
 
-import multiprocessing
-import os
-import signal
+import math
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
-from contextlib import nullcontext
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,16 +13,20 @@ import numpy as np
 
 from beal.discretisation import Formulation
 from beal.errors import ModelError
+from beal.study.blocks import Blocks, blocks
+from beal.study.place import Place
+from beal.study.run import run, workers_for
 from beal.study.solve import solve_block
-from beal.study.store import Arrays, Block, Store, attributes, blocks, empty, variable_attributes
+from beal.study.store import Arrays, Store, attributes, empty, prepare, variable_attributes
 from beal.study.study import Solve, Study
+from beal.study.summary import Summary
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[int, int], None]
-SERIAL = 512  # points up to which starting processes costs more than it saves
+IN_MEMORY = 10_000_000  # points, some 0.4 GB
 
 
 def stability_map(
@@ -36,6 +40,7 @@ def stability_map(
     resume: bool = False,
     workers: int | None = None,
     progress: Progress | None = None,
+    executor: Executor | None = None,
 ) -> "xarray.Dataset":
     """Critical thrust, kind and modes over a grid of vehicles.
 
@@ -53,13 +58,15 @@ def stability_map(
     tolerance : float
         Relative error to reach at each point.
     out : str or Path, optional
-        Zarr directory to write to, block by block; in memory alone if left out.
+        Zarr folder, or URL that fsspec understands, to which workers write block by block; in memory alone if left out.
     resume : bool
         Whether to go on with what is in ``out``.
     workers : int, optional
-        Processes; by default one for each core.
+        Threads or processes of this machine, whichever suit the study; by default one for each core.
     progress : callable, optional
         Called with the number of points solved and of all points.
+    executor : concurrent.futures.Executor, optional
+        Solves the blocks in place of this machine's workers, such as ``client.get_executor()`` of dask.
 
     Returns
     -------
@@ -70,7 +77,8 @@ def stability_map(
     Raises
     ------
     ModelError
-        If an axis is not a quantity of the vehicle, an option does not apply, or the output cannot be written.
+        If an axis is not a quantity of the vehicle, an option does not apply, the output cannot be written, or the map
+        is too large for the memory.
 
     Examples
     --------
@@ -81,95 +89,113 @@ def stability_map(
     """
     named = {path: tuple(float(value) for value in values) for path, values in axes.items()}
     study = Study(vehicle, named, Solve(max_thrust, tolerance, formulation, modes))
-    return run_study(study, out, resume, workers, progress)
+    if out is None:
+        return _in_memory(study, workers, progress, executor)
+    run_study(study, out, resume, workers, progress, executor)
+    import xarray
+
+    return xarray.open_zarr(Place.of(out).name, chunks=None)
 
 
 def run_study(
     study: Study,
-    out: str | Path | None = None,
+    out: str | Path,
     resume: bool = False,
     workers: int | None = None,
     progress: Progress | None = None,
-) -> "xarray.Dataset":
-    """Solves all points of a study that are not solved yet.
+    executor: Executor | None = None,
+) -> Summary:
+    """Solves all points of a study that are not solved yet, onto a disk.
+
+    The workers write their blocks themselves; here only numbers arrive, so that the memory is bounded by the blocks in
+    work and not by the map.
 
     Parameters
     ----------
     study : Study
-    out, resume, workers, progress
+    out, resume, workers, progress, executor
         As for `stability_map`.
 
     Returns
     -------
-    xarray.Dataset
+    Summary
+        Of all points, those of earlier runs included.
 
     Raises
     ------
     ModelError
         If the output cannot be written or belongs to another study.
     """
-    if workers is not None and workers < 1:
-        raise ModelError(f"workers: must be at least 1, found {workers}")
-    store = Store(Path(out), study, resume) if out is not None else None
-    solved = empty(study.shape) if store is None else {}
-    todo = [block for block in blocks(study.shape) if store is None or store.pending(block)]
-    total = int(np.prod(study.shape))
-    done = total - sum(_points(block) for block in todo)
+    _check(workers, executor)
+    store = prepare(out, study, resume)
+    if not store.place.is_shared:
+        if not isinstance(executor, ThreadPoolExecutor | None):
+            raise ModelError(f"{out}: only this process sees it; give a folder, or a URL that all workers see")
+        workers = 1
+    ready = store.done()
+    points, total = store.blocks.points, math.prod(study.shape)
+    found = sum((Summary.of(store.read(int(index))) for index in np.flatnonzero(ready)), Summary())
 
-    def keep(block: Block, arrays: Arrays) -> None:
+    def keep(index: int, summary: Summary) -> None:
+        nonlocal found
+        found += summary
+        if progress:
+            progress(found.points, total)
+
+    if progress:
+        progress(found.points, total)
+    with _workers(study, workers, executor, int(points[~ready].sum())) as crew:
+        run(map(int, np.flatnonzero(~ready)), _Written(store), keep, crew)
+    return found
+
+
+@dataclass(frozen=True)
+class _Written:
+    """Solves a block of the study in a store and writes it there."""
+
+    store: Store
+
+    def __call__(self, index: int) -> Summary:
+        arrays = solve_block(self.store.study, self.store.blocks[index])
+        self.store.write(index, arrays)
+        return Summary.of(arrays)
+
+
+def _in_memory(
+    study: Study, workers: int | None, progress: Progress | None, executor: Executor | None
+) -> "xarray.Dataset":
+    _check(workers, executor)
+    total, done = math.prod(study.shape), 0
+    if total > IN_MEMORY:
+        raise ModelError(f"grid: at most {IN_MEMORY} points in memory, found {total}; name an output, out=PATH")
+    solved, cuts = empty(study.shape), blocks(study)
+
+    def keep(index: int, arrays: Arrays) -> None:
         nonlocal done
-        if store is None:
-            for name, values in arrays.items():
-                solved[name][block] = values
-        else:
-            store.write(block, arrays)
-        done += _points(block)
+        for name, values in arrays.items():
+            solved[name][cuts[index]] = values
+        done += int(cuts.points[index])
         if progress:
             progress(done, total)
 
-    if progress:
-        progress(done, total)
-    with _executor(workers, total - done) as executor:
-        _run(study, todo, executor, keep)
-    if store is None:
-        return _dataset(study, solved)
-    import xarray
-
-    return xarray.open_zarr(str(store.path))
+    with _workers(study, workers, executor, total) as crew:
+        run(range(len(cuts)), partial(_solved, study, cuts), keep, crew)
+    return _dataset(study, solved)
 
 
-def _points(block: Block) -> int:
-    return int(np.prod([part.stop - part.start for part in block]))
+def _solved(study: Study, cuts: Blocks, index: int) -> Arrays:
+    return solve_block(study, cuts[index])
 
 
-def _executor(workers: int | None, points: int) -> "ProcessPoolExecutor | nullcontext[None]":
-    workers = workers or os.cpu_count() or 1
-    if workers == 1 or points <= SERIAL:
-        return nullcontext()
-    fork = "fork" in multiprocessing.get_all_start_methods()  # a script need not guard its main module
-    context = multiprocessing.get_context("fork" if fork else None)
-    return ProcessPoolExecutor(workers, mp_context=context, initializer=_ignore_interrupt)
+def _check(workers: int | None, executor: Executor | None) -> None:
+    if workers is not None and executor is not None:
+        raise ModelError("workers: an executor brings its own; leave one of the two out")
 
 
-def _ignore_interrupt() -> None:
-    """Ctrl-C reaches the whole process group; only the parent, which keeps the store, acts on it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def _run(study: Study, todo: Sequence[Block], executor: Executor | None, keep: Callable[[Block, Arrays], None]) -> None:
-    """Solves blocks here or in the executor's workers; results are kept in this process as they come."""
-    if executor is None:
-        for block in todo:
-            keep(block, solve_block(study, block))
-        return
-    futures = {executor.submit(solve_block, study, block): block for block in todo}
-    try:
-        while futures:
-            for future in wait(futures, return_when=FIRST_COMPLETED).done:
-                keep(futures.pop(future), future.result())
-    finally:
-        for future in futures:
-            future.cancel()
+def _workers(
+    study: Study, workers: int | None, executor: Executor | None, points: int
+) -> AbstractContextManager[Executor | None]:
+    return workers_for(study, workers, points) if executor is None else nullcontext(executor)
 
 
 def _dataset(study: Study, arrays: Arrays) -> "xarray.Dataset":

@@ -1,19 +1,17 @@
 """Solving points of a study, together where they share a discretisation."""
 
-import re
-
 import numpy as np
 from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.critical import CriticalThrust, critical_thrust
-from beal.stability.scan import DIVERGENCE, STABLE, UNDECIDED
-from beal.stability.table import Spring
-from beal.study.batch import WORTHWHILE, solve_springs
-from beal.study.store import KINDS, STATUS, Arrays, Block, empty
+from beal.stability.kernels.rules import DIVERGENCE, STABLE, UNDECIDED
+from beal.stability.table import TANGENCY, tabulated
+from beal.study.batch import WORTHWHILE, solve_together
+from beal.study.blocks import Block
+from beal.study.store import KINDS, METHODS, STATUS, Arrays, empty
 from beal.study.study import Study
 
-_SPRING = re.compile(r"joint\[(\d+)\]\.(rotational_stiffness|shear_stiffness)")
 Values = NDArray[np.float64]
 
 
@@ -28,8 +26,9 @@ def solve_block(study: Study, block: Block) -> Arrays:
 def solve_points(study: Study, values: Values) -> Arrays:
     """Critical thrust and its evidence at any points.
 
-    Points that differ in joint springs only are solved together. A point that cannot be solved carries its status, not
-    an exception: ``invalid`` where the model is refused there, ``not_converged`` where the numerics fail.
+    Points that share tables, because they differ in joint springs or tangency only, are solved together. A point that
+    cannot be solved carries its status, not an exception: ``invalid`` where the model is refused there,
+    ``not_converged`` where the numerics fail.
 
     Parameters
     ----------
@@ -43,47 +42,45 @@ def solve_points(study: Study, values: Values) -> Arrays:
         The variables of `beal.study.store.VARIABLES`.
     """
     arrays = empty((len(values),))
-    springs = {axis: spring for axis, path in enumerate(study.axes) if (spring := _spring(path))}
-    others = [axis for axis in range(values.shape[1]) if axis not in springs]
+    shared = {axis: path for axis, path in enumerate(study.axes) if tabulated(path)}
+    others = [axis for axis in range(values.shape[1]) if axis not in shared]
     _, group = np.unique(values[:, others], axis=0, return_inverse=True)
     for points in np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1]):
         left = points
-        if springs and len(points) >= WORTHWHILE:
-            left = points[_together(study, springs, values, points, arrays)]
+        if shared and len(points) >= WORTHWHILE:
+            left = points[_together(study, shared, values, points, arrays)]
+        arrays["method"][left] = METHODS.index("single")
         for point in left:
             for name, value in _alone(study, values[point]).items():
                 arrays[name][point] = value
     return arrays
 
 
-def _spring(path: str) -> Spring | None:
-    match = _SPRING.fullmatch(path)
-    if match is None:
-        return None
-    return int(match[1]), "rotational_stiffness" if match[2].startswith("r") else "shear_stiffness"
-
-
 def _together(
-    study: Study, springs: dict[int, Spring], values: Values, points: NDArray[np.intp], arrays: Arrays
+    study: Study, shared: dict[int, str], values: Values, points: NDArray[np.intp], arrays: Arrays
 ) -> NDArray[np.bool_]:
     """Fills in the points that the tables decide and says which they leave, shape (points,)."""
-    axes = np.array(tuple(springs))
-    stiffnesses, common = values[points[:, None], axes], values[points[0]].copy()
-    common[axes] = np.inf  # the tables are made for any stiffness
+    axes = np.array(tuple(shared))
+    parameters, common = values[points[:, None], axes], values[points[0]].copy()
+    most = np.array([2.0 if path == TANGENCY else np.inf for path in shared.values()])
+    common[axes] = np.where(most == 2.0, 1.0, np.inf)  # the tables are made for any value
     try:
         vehicle = study.at(common)
     except ModelError:
         return np.ones(len(points), dtype=bool)
-    if not np.all(stiffnesses >= 0):
+    if not np.all((parameters >= 0) & (parameters <= most)):
         return np.ones(len(points), dtype=bool)
-    kind, (thrust, mode, omega, error) = solve_springs(vehicle, tuple(springs.values()), stiffnesses, study.solve)
+    found = solve_together(vehicle, tuple(shared.values()), parameters, study.solve)
+    kind, mode = found.kind, found.mode
     decided, unstable = points[kind != UNDECIDED], (kind != UNDECIDED) & (kind != STABLE)
     arrays["kind"][decided] = kind[kind != UNDECIDED]
+    arrays["border"][decided] = found.border[kind != UNDECIDED]
+    arrays["method"][decided] = METHODS.index("tables")
     arrays["status"][decided] = STATUS.index("solved")
     columns = {
-        "critical_thrust": thrust,
-        "angular_frequency": omega,
-        "error_estimate": error,
+        "critical_thrust": found.thrust,
+        "angular_frequency": np.sqrt(found.W),
+        "error_estimate": found.error,
         "mode_low": mode,
         "mode_high": mode + (kind != DIVERGENCE),
     }

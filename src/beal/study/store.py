@@ -1,15 +1,18 @@
 """Results of a study on disk: a zarr group that xarray opens, filled block by block.
 
-A block is a chunk of every array. Its status is written last, so what is marked done is done, whenever the program was
-stopped; blocks still marked pending are solved again on resumption.
+A block is a chunk of every array. Its status is written last, so what has a status is done, whenever the program was
+stopped; blocks without are solved again on resumption. The group appears under its name when it is whole, and it holds
+the study, so that a worker anywhere needs its place alone.
 """
 
 import json
+import os
+import socket
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from importlib.metadata import version
-from itertools import product
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,11 +20,14 @@ import zarr
 from numpy.typing import NDArray
 
 from beal.errors import ModelError
-from beal.study.study import Study
+from beal.study.blocks import Blocks, blocks
+from beal.study.place import Place
+from beal.study.study import Solve, Study
+from beal.vehicle.file import loads
 
-BLOCK = 256  # points of a block at least, along the last axes
 STATUS = ("pending", "solved", "not_converged", "invalid")
 KINDS = ("stable", "flutter", "divergence")
+METHODS = ("none", "tables", "single")
 VARIABLES: dict[str, tuple[str, Any]] = {
     "critical_thrust": ("float64", np.nan),
     "kind": ("int8", 0),
@@ -29,28 +35,12 @@ VARIABLES: dict[str, tuple[str, Any]] = {
     "mode_high": ("int8", 0),
     "angular_frequency": ("float64", np.nan),
     "error_estimate": ("float64", np.nan),
-    "status": ("int8", 0),
+    "border": ("int8", 0),  # 1 where something else comes first at practically the same thrust, or next to the point
+    "method": ("int8", 0),
+    "status": ("int8", 0),  # last, see above
 }
 
-Block = tuple[slice, ...]
 Arrays = dict[str, NDArray[Any]]
-
-
-def block_shape(shape: tuple[int, ...]) -> tuple[int, ...]:
-    """Shape of a block: whole trailing axes until it holds enough points, single points of the others."""
-    sizes = [1] * len(shape)
-    for axis in reversed(range(len(shape))):
-        room = -(-BLOCK // int(np.prod(sizes)))
-        sizes[axis] = min(shape[axis], room)
-    return tuple(sizes)
-
-
-def blocks(shape: tuple[int, ...]) -> Iterator[Block]:
-    """The blocks of a grid, in order."""
-    sizes = block_shape(shape)
-    starts = (range(0, points, size) for points, size in zip(shape, sizes, strict=True))
-    for corner in product(*starts):
-        yield tuple(slice(a, min(a + b, n)) for a, b, n in zip(corner, sizes, shape, strict=True))
 
 
 def empty(shape: tuple[int, ...]) -> Arrays:
@@ -72,77 +62,123 @@ def attributes(study: Study) -> dict[str, Any]:
 
 def variable_attributes(name: str, units: str) -> dict[str, Any]:
     """Units, or the meaning of flags, of a variable."""
-    flags = {"kind": KINDS, "status": STATUS}
+    flags = {"kind": KINDS, "method": METHODS, "border": ("no", "yes"), "status": STATUS}
     if name in flags:
         return {"flag_values": list(range(len(flags[name]))), "flag_meanings": " ".join(flags[name])}
     units_of = {"critical_thrust": "N", "error_estimate": "N", "angular_frequency": "rad/s"}
     return {"units": units_of[name] if units == "SI" else "1"} if name in units_of else {}
 
 
-class Store:
-    """The zarr group of one study.
+def prepare(out: object, study: Study, resume: bool) -> "Store":
+    """The store of a study, made or found again.
 
     Parameters
     ----------
-    path : Path
+    out : str or Path
     study : Study
     resume : bool
         Whether to go on with what is there.
 
+    Returns
+    -------
+    Store
+
     Raises
     ------
     ModelError
-        If something is there already, or was computed from other inputs, or nothing can be written there.
+        If something is there already, or was made from other inputs or by another version, or nothing can be written.
+    """
+    place = Place.of(out)
+    try:
+        if not place.exists():
+            with place.new() as new:
+                _create(new, study)
+        elif not resume:
+            raise ModelError(f"{out}: exists already; continue it with --resume, or name another place or remove it")
+        else:
+            place.tidy()
+            _check(out, place, study)
+    except OSError as error:
+        raise ModelError(f"{out}: cannot be written, {error.strerror or error}") from None
+    return Store(place, study.digest)
+
+
+def _create(place: Place, study: Study) -> None:
+    group = zarr.create_group(store=place.zarr())
+    for path, values in study.axes.items():
+        axis = group.create_array(path, shape=(len(values),), dtype="float64", dimension_names=(path,))
+        axis[:] = np.array(values)
+    for name, (dtype, fill) in VARIABLES.items():
+        group.create_array(
+            name,
+            shape=study.shape,
+            chunks=blocks(study).sizes,
+            dtype=dtype,
+            fill_value=fill,
+            dimension_names=tuple(study.axes),
+            attributes=variable_attributes(name, study.vehicle.units),
+        )
+    with warnings.catch_warnings():  # an extension of the format, which xarray looks for first
+        warnings.simplefilter("ignore", category=UserWarning)
+        zarr.consolidate_metadata(place.zarr()).update_attributes(attributes(study))
+
+
+def _check(out: object, place: Place, study: Study) -> None:
+    """Refuses to go on with a store that was made from something else."""
+    try:
+        was = dict(zarr.open_group(place.zarr(), mode="r").attrs)
+        inputs = json.loads(str(was["inputs"])) | {"beal_version": was["beal_version"]}
+    except (KeyError, ValueError, FileNotFoundError):
+        raise ModelError(f"{out}: is not a map of this program, or not a whole one; name another place") from None
+    now: Mapping[str, Any] = study.inputs | {"beal_version": version("beal")}
+    changed = sorted(name for name in {*now, *inputs} if now.get(name) != inputs.get(name))
+    if changed:
+        details = [(name, f"was {_short(inputs.get(name))}, is {_short(now.get(name))}") for name in changed]
+        raise ModelError([(str(out), "cannot be resumed, its inputs have changed"), *details])
+
+
+def _short(text: str | None) -> str:
+    if text is None:
+        return "absent"
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+@dataclass(frozen=True)
+class Store:
+    """The zarr group of one study, as any worker finds it.
+
+    Parameters
+    ----------
+    place : Place
+    digest : str
+        SHA-256 of the study's inputs, which must be those at the place.
     """
 
-    def __init__(self, path: Path, study: Study, resume: bool) -> None:
-        self.path = path
-        if path.exists() and not resume:
-            raise ModelError(f"{path}: exists already; continue it with --resume, or name another place or remove it")
-        try:
-            self._group = self._opened(study) if path.exists() else self._created(study)
-        except OSError as error:
-            raise ModelError(f"{path}: cannot be written, {error.strerror or error}") from None
-        self.arrays: Mapping[str, zarr.Array[Any]] = {name: self._group[name] for name in VARIABLES}  # type: ignore[misc]
+    place: Place
+    digest: str
 
-    def _created(self, study: Study) -> zarr.Group:
-        group = zarr.create_group(store=str(self.path), attributes=attributes(study))
-        for path, values in study.axes.items():
-            axis = group.create_array(path, shape=(len(values),), dtype="float64", dimension_names=(path,))
-            axis[:] = np.array(values)
-        for name, (dtype, fill) in VARIABLES.items():
-            group.create_array(
-                name,
-                shape=study.shape,
-                chunks=block_shape(study.shape),
-                dtype=dtype,
-                fill_value=fill,
-                dimension_names=tuple(study.axes),
-                attributes=variable_attributes(name, study.vehicle.units),
-            )
-        with warnings.catch_warnings():  # an extension of the format, which xarray looks for first
-            warnings.simplefilter("ignore", category=UserWarning)
-            zarr.consolidate_metadata(str(self.path))
-        return group
+    @property
+    def study(self) -> Study:
+        """The study, as it was written."""
+        return self._opened.study
 
-    def _opened(self, study: Study) -> zarr.Group:
-        try:
-            group = zarr.open_group(str(self.path), mode="r+")
-            inputs = json.loads(str(group.attrs["inputs"]))
-        except (KeyError, ValueError, FileNotFoundError):
-            raise ModelError(f"{self.path}: is not a map of this program; name another place") from None
-        now = study.inputs
-        changed = sorted(name for name in {*now, *inputs} if now.get(name) != inputs.get(name))
-        if changed:
-            details = [(name, f"was {_short(inputs.get(name))}, is {_short(now.get(name))}") for name in changed]
-            raise ModelError([(f"{self.path}", "cannot be resumed, its inputs have changed"), *details])
-        return group
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks, as they were cut when the store was made."""
+        return self._opened.blocks
 
-    def pending(self, block: Block) -> bool:
-        """Whether a block is still to be solved."""
-        return bool(np.any(np.asarray(self.arrays["status"][block]) == 0))
+    def done(self) -> NDArray[np.bool_]:
+        """Which blocks have a status, shape (blocks,)."""
+        found = np.zeros(len(self.blocks), dtype=bool)
+        for corner in self.place.chunks("status", len(self.blocks.shape)):
+            found[np.ravel_multi_index(corner, self.blocks.counts)] = True
+        return found
 
-    def write(self, block: Block, arrays: Arrays) -> None:
+    def read(self, index: int) -> Arrays:
+        """All variables of a block."""
+        return {name: np.asarray(array[self.blocks[index]]) for name, array in self._opened.arrays.items()}
+
+    def write(self, index: int, arrays: Arrays) -> None:
         """Writes a block, its status last.
 
         Raises
@@ -151,16 +187,50 @@ class Store:
             If the disk is full or not writable; the blocks written before are kept.
         """
         try:
-            for name, values in arrays.items():
-                self.arrays[name][block] = values  # status is the last of VARIABLES
+            for name, array in self._opened.arrays.items():
+                array[self.blocks[index]] = arrays[name]
         except OSError as error:
             reason = error.strerror or error
             raise ModelError(
-                f"{self.path}: cannot be written, {reason}; what was solved before is kept, go on with --resume"
+                f"{self.place}: cannot be written, {reason}; what was solved before is kept, go on with --resume"
             ) from None
 
+    @property
+    def _opened(self) -> "_Opened":
+        return _opened(self.place, self.digest, os.getpid())
 
-def _short(text: str | None) -> str:
-    if text is None:
-        return "absent"
-    return text if len(text) <= 60 else f"{text[:57]}..."
+
+@dataclass(frozen=True)
+class _Opened:
+    """What a process has found at a place."""
+
+    group: zarr.Group
+
+    @cached_property
+    def arrays(self) -> Mapping[str, "zarr.Array[Any]"]:
+        return {name: self.group[name] for name in VARIABLES}  # type: ignore[misc]
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        return Blocks(self.arrays["status"].shape, self.arrays["status"].chunks)
+
+    @cached_property
+    def study(self) -> Study:
+        inputs = json.loads(str(self.group.attrs["inputs"]))
+        dimensions: Iterable[Any] = self.arrays["status"].metadata.dimension_names or ()  # type: ignore[union-attr]
+        axes = {path: tuple(np.asarray(self.group[path][:]).tolist()) for path in dimensions}  # type: ignore[index]
+        solve = {key.removeprefix("solve."): json.loads(text) for key, text in inputs.items() if key[:6] == "solve."}
+        return Study(loads(inputs["model"]), axes, Solve(**solve))
+
+
+@lru_cache(maxsize=4)
+def _opened(place: Place, digest: str, process: int) -> _Opened:
+    """Opened once in each process: what was opened before a fork may hold on to threads that are no more."""
+    try:
+        group = zarr.open_group(place.zarr(), mode="r+")
+    except FileNotFoundError:
+        host = socket.gethostname()
+        raise ModelError(f"{place}: not there on {host}; give a place that all workers see under this name") from None
+    if (group.attrs.get("inputs_sha256"), group.attrs.get("beal_version")) != (digest, version("beal")):
+        raise ModelError(f"{place}: was made anew meanwhile, or beal {version('beal')} of a worker is another version")
+    return _Opened(group)

@@ -14,7 +14,8 @@ from beal.vehicle.file import dumps
 from beal.vehicle.paths import with_values
 from beal.vehicle.vehicle import Vehicle
 
-POINTS = 10_000_000  # beyond this a grid is more likely a mistake than a plan
+POINTS = 10_000_000_000  # beyond this a grid is more likely a mistake than a plan
+SHOWN = 10_000  # values of an axis that the inputs list; of a longer one they hold the ends and a hash
 
 
 @dataclass(frozen=True)
@@ -94,13 +95,20 @@ class Study:
     def inputs(self) -> dict[str, str]:
         """Everything that the result depends on, each part as text, so that two studies can be compared."""
         parts = {"model": dumps(self.vehicle)}
-        parts |= {f"grid.{path}": json.dumps(values) for path, values in self.axes.items()}
+        parts |= {f"grid.{path}": _text(values) for path, values in self.axes.items()}
         return parts | {f"solve.{name}": json.dumps(value) for name, value in asdict(self.solve).items()}
 
     @property
     def digest(self) -> str:
         """SHA-256 of the inputs."""
         return hashlib.sha256(json.dumps(self.inputs, sort_keys=True).encode()).hexdigest()
+
+
+def _text(values: tuple[float, ...]) -> str:
+    if len(values) <= SHOWN:
+        return json.dumps(values)
+    digest = hashlib.sha256(np.array(values).tobytes()).hexdigest()
+    return f"{len(values)} values from {float(values[0])} to {float(values[-1])}, SHA-256 {digest}"
 
 
 def spaced(start: float, stop: float, points: int, spacing: str) -> tuple[float, ...]:
