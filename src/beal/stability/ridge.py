@@ -102,11 +102,11 @@ class Search:
         start = self.state(0.0)
         low = np.append(0.0, start.roots[: self._pairs + 1].real)
         apart = np.diff(low) > REAL * (np.abs(low[1:]) + ZERO * self.pencil.shift)
-        scale = np.where(apart, np.abs(start.heights), 0.0) if start.real else np.zeros(self._pairs + 1)
+        scale = np.abs(start.heights) if start.real else np.zeros(self._pairs + 1)
         for thrust in (1e-3 * limit, limit / steps):
             height = np.abs(self.state(thrust).heights)
             if len(height):
-                scale = np.where((scale == 0) | (~apart & (scale <= FLAT * height)), height, scale)
+                scale = np.where((~apart | (scale == 0)) & (scale <= FLAT * height), height, scale)
         return scale
 
     def state(self, thrust: float) -> State:
