@@ -10,7 +10,7 @@ help:
 	@echo "make demo       install into $(VENV), reproduce the paper, say where the report is"
 	@echo "make test       install into $(VENV), run the whole test suite"
 	@echo "make lint       ruff and mypy"
-	@echo "make benchmark  time the critical thrust"
+	@echo "make benchmark  time the critical thrust and the maps"
 	@echo "make clean      remove $(VENV), $(REPORT), builds and caches"
 	@echo "Another interpreter than $(PYTHON): make test PYTHON=python3.12"
 
@@ -32,6 +32,7 @@ lint: $(STAMP)
 
 benchmark: $(STAMP)
 	$(BIN)/python benchmarks/critical_thrust.py
+	$(BIN)/python benchmarks/maps.py
 
 clean:
 	rm -rf $(VENV) $(REPORT) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks

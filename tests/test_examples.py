@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-CLUSTERS = (ROOT / "docs" / "clusters.md").read_text(encoding="utf-8")
+CLUSTERS, MAPS = ((ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8") for page in ("clusters", "maps"))
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -78,8 +78,16 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert [path.name for path in (ROOT / "docs").rglob("*.md")] == ["clusters.md"]
+    assert sorted(path.name for path in (ROOT / "docs").rglob("*.md")) == ["clusters.md", "maps.md"]
+    assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
+
+
+def test_the_maps_of_the_page_on_maps_are_as_shown(readme_folder):
+    (readme_folder / "study.toml").write_text(blocks("toml", MAPS)[0])
+    for block in blocks("console", MAPS):
+        command, _, shown = block.partition("\n")
+        assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], readme_folder).strip() == shown.strip()
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))

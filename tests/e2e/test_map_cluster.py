@@ -70,7 +70,7 @@ def test_ctrl_c_on_a_cluster_says_how_to_go_on(undisturbed, tmp_path, result_of)
         message = run.communicate(timeout=60)[1].decode()
     assert run.returncode == 130
     again = "beal map study.toml -o dask.zarr --scheduler local --resume"
-    assert message.endswith(f"beal: interrupted; {again} goes on with it\n")
+    assert f"beal: interrupted; {again} goes on with it\n" in message  # dask may add a word on its own closing
     assert "Traceback" not in message
     assert result_of("map", "study.toml", "-o", "dask.zarr", "--resume")["status"]["solved"] == 300
     assert contents(tmp_path / "dask.zarr") == undisturbed

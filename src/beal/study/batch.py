@@ -17,10 +17,10 @@ from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
-WORTHWHILE = 12  # vehicles from which on a table costs less than solving each by itself
+WORTHWHILE = 4  # vehicles from which on a table costs less than solving each by itself
 PANELS = 4  # on which the thrusts up to the default limit are tabulated, each when it is needed
-SOFT = 2.0  # stiffness, as a share of the stage's, below which a joint is soft
-GRADED = (1 / 64, 1 / 8)  # shares of the first panel at which it is divided for vehicles with soft joints
+SOFT = 0.5  # stiffness, as a share of the stage's, below which a joint needs the first panel graded
+GRADED = (1 / 64, 1 / 8)  # shares of the first panel at which it is then divided
 FLOOR = 1e-12  # relative rounding of the critical thrust
 TABULATED: tuple[Formulation, ...] = ("objective", "converged")
 
@@ -51,28 +51,45 @@ def solve_together(vehicle: Vehicle, paths: tuple[str, ...], values: Array, solv
         return result
     natural = default_limit(vehicle)
     limit = solve.max_thrust or natural
-    springs = [(column, path) for column, path in enumerate(paths) if path != TANGENCY]
-    soft = np.zeros(count, dtype=bool)
-    for column, path in springs:
-        soft |= values[:, column] < SOFT * reference(vehicle, path)
     even = np.arange(math.ceil(PANELS * limit / natural) + 1) * natural / PANELS
-    for crowded, edges in ((False, even), (True, np.concatenate(([0.0], even[1] * np.array(GRADED), even[1:])))):
-        left = np.flatnonzero(soft == crowded)
-        for low, high in zip(edges[:-1], edges[1:], strict=True):
-            if not len(left):
-                break
-            with one_thread():
-                tables = _panel(vehicle, paths, solve.formulation, (float(low), float(high)), crowded)
-            if tables is None:
-                break
-            found = scan(tables, weights(vehicle, paths, values[left]))
-            _settle(result, left, found, limit, solve.tolerance)
-            stable = found.kind == STABLE
-            result.border[left] |= found.border
-            if high >= limit:
-                result.kind[left[stable]] = STABLE
-            left = left[stable & (high < limit)]
+    graded = np.concatenate(([0.0], even[1] * np.array(GRADED), even[1:]))
+    soft = np.zeros(count, dtype=bool)
+    for column, path in enumerate(paths):
+        if path != TANGENCY:
+            soft |= values[:, column] < SOFT * reference(vehicle, path)
+    _search(result, np.flatnonzero(~soft), vehicle, paths, values, solve, limit, even, False)
+    left = np.flatnonzero(kind == UNDECIDED)
+    if len(left) >= WORTHWHILE:
+        _search(result, left, vehicle, paths, values, solve, limit, graded, True)
     return result
+
+
+def _search(
+    result: Found,
+    left: NDArray[np.intp],
+    vehicle: Vehicle,
+    paths: tuple[str, ...],
+    values: Array,
+    solve: Solve,
+    limit: float,
+    edges: Array,
+    crowded: bool,
+) -> None:
+    """Fills in what is found for some vehicles on panel after panel, until none is left that was stable so far."""
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        if not len(left):
+            return
+        with one_thread():
+            tables = _panel(vehicle, paths, solve.formulation, (float(low), float(high)), crowded)
+        if tables is None:
+            return
+        found = scan(tables, weights(vehicle, paths, values[left]))
+        _settle(result, left, found, limit, solve.tolerance)
+        stable = found.kind == STABLE
+        result.border[left] |= found.border
+        if high >= limit:
+            result.kind[left[stable]] = STABLE
+        left = left[stable & (high < limit)]
 
 
 def _settle(result: Found, left: NDArray[np.intp], found: Found, limit: float, tolerance: float) -> None:

@@ -16,10 +16,9 @@ from beal.stability.table import tabulated
 from beal.study.study import Study
 
 Block = tuple[slice, ...]
-spring = tabulated
 
-ALONE, TOGETHER, TABLES = 8e-3, 1e-5, 0.08  # seconds: of one point by itself, of one with tables, of making the tables
-SHORT, LONG = 0.05, 1.0  # seconds of a block; writing it takes some 0.01
+ALONE, TOGETHER, TABLES = 8e-3, 5e-6, 0.03  # seconds: of one point by itself, of one with tables, of making the tables
+SHORT, LONG = 0.2, 1.0  # seconds of a block; writing it takes some 0.01
 ENOUGH, MOST = 64, 50_000  # blocks to share among workers, and files of a variable that a folder bears
 
 

@@ -52,7 +52,7 @@ def cluster(scheduler: str, workers: int | None = None) -> Iterator[Executor]:
         raise ModelError("--scheduler: needs dask.distributed, which is not installed; install beal[cluster]") from None
     try:
         if scheduler == "local":
-            quiet = {"dashboard_address": None, "silence_logs": logging.ERROR, "preload": [DEAF]}
+            quiet = {"dashboard_address": None, "silence_logs": logging.CRITICAL, "preload": [DEAF]}
             with LocalCluster(workers or cores(), threads_per_worker=1, **quiet) as here, Client(here) as client:
                 yield _executor(client)
         else:

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation import Formulation
-from beal.study.blocks import spring, together
+from beal.stability.table import tabulated
+from beal.study.blocks import together
 from beal.study.lattice import ONE, Index, Integers, Lattice
 from beal.study.map import Progress, stability_map
 from beal.study.place import Place
@@ -239,7 +240,7 @@ class _Solver:
 
 def _parts(study: Study, values: Values, points: NDArray[np.intp]) -> Iterator[Part]:
     """Points in parts of about one cost, those that differ in springs alone next to each other."""
-    others = [axis for axis, path in enumerate(study.axes) if not spring(path)]
+    others = [axis for axis, path in enumerate(study.axes) if not tabulated(path)]
     if others:
         points = points[np.lexsort(values[points][:, others].T)]
     size = MOST if together(study) else FEW

@@ -17,18 +17,17 @@ def combine(w, tables, out):
 
 
 @compiled
-def critical(panel, w, P, W, i):
+def critical(edges, patches, coarser, low, high, patch, rows, w, P, W, i):
     """Root of D = D_W = 0, or of D(P, 0) = 0 for i = 0, next to a guess: thrust, W, error, whether it converged."""
-    patch = np.empty((panel.degree + 1, panel.patches.shape[2] // (panel.degree + 1)))
     own, sign = -1, 1.0 - 2.0 * (i & 1)
     for _ in range(NEWTON):
-        if not inside(panel, P, W):
+        if not inside(edges, low, high, P, W):
             break
-        q = patch_of(panel, W)
+        q = patch_of(edges, W)
         if q != own:
             own = q
-            combine(w, panel.patches[q], patch.ravel())
-        D, D_P, D_W, D_WW, D_WP, _ = derivatives(panel, patch, q, P, W)
+            combine(w, patches[q], patch.ravel())
+        D, D_P, D_W, D_WW, D_WP, _ = derivatives(patch, rows, low, high, edges[q], edges[q + 1], P, W)
         if i == 0:
             step_P, step_W = D / D_P, 0.0
         else:
@@ -37,26 +36,25 @@ def critical(panel, w, P, W, i):
         P -= step_P
         W -= step_W
         if abs(step_P) < 1e-8 * abs(P) and abs(step_W) <= 1e-7 * abs(W):
-            rounding = ROUNDING * np.sum(np.abs(patch))
-            combine(w, panel.coarser[q], patch.ravel())
-            error = (abs(value(panel, patch, q, P, W)) + rounding) / abs(D_P)
-            return P, W, error, sign * D_P < 0 and (i == 0 or sign * D_WW < 0)
+            error = uncertainty(patch)
+            combine(w, coarser[q], patch.ravel())
+            error += abs(derivatives(patch, rows, low, high, edges[q], edges[q + 1], P, W)[0])
+            return P, W, error / abs(D_P), sign * D_P < 0 and (i == 0 or sign * D_WW < 0)
     return P, W, np.inf, False
 
 
 @compiled
-def bottom(panel, w, P, W, i):
-    """The lowest point of a ridge next to a guess: thrust, W, height, rounding of the height."""
-    patch = np.empty((panel.degree + 1, panel.patches.shape[2] // (panel.degree + 1)))
+def bottom(edges, patches, low, high, patch, rows, w, P, W, i):
+    """The lowest point of a ridge next to a guess: thrust, W, height, uncertainty of the height."""
     own, sign = -1, 1.0 - 2.0 * (i & 1)
     for _ in range(NEWTON):
-        if not inside(panel, P, W):
+        if not inside(edges, low, high, P, W):
             break
-        q = patch_of(panel, W)
+        q = patch_of(edges, W)
         if q != own:
             own = q
-            combine(w, panel.patches[q], patch.ravel())
-        D, D_P, D_W, D_WW, D_WP, D_PP = derivatives(panel, patch, q, P, W)
+            combine(w, patches[q], patch.ravel())
+        D, D_P, D_W, D_WW, D_WP, D_PP = derivatives(patch, rows, low, high, edges[q], edges[q + 1], P, W)
         if i == 0:
             step_P, step_W = D_P / D_PP, 0.0
         else:
@@ -65,51 +63,59 @@ def bottom(panel, w, P, W, i):
         if abs(step_P) < 1e-7 * abs(P) and abs(step_W) <= 1e-6 * abs(W):
             if i and sign * D_WW >= 0:
                 break
-            return P, W, sign * D, ROUNDING * np.sum(np.abs(patch))
+            return P, W, sign * D, uncertainty(patch)
         P -= step_P
         W -= step_W
     return np.inf, W, 0.0, 0.0
 
 
 @compiled
-def inside(panel, P, W):
-    """Whether a point is on the panel, or near it in thrust."""
-    low, high = panel.thrusts[0], panel.thrusts[-1]
-    return W >= 0 and panel.edges[-1] >= W and abs(P - low) <= 2 * (high - low)
+def uncertainty(patch):
+    """Of D: rounding, and what the series leaves out, which is less than its last terms."""
+    n, m = patch.shape
+    total = last = 0.0
+    for p in range(n):
+        for j in range(m):
+            total += abs(patch[p, j])
+        last += abs(patch[p, m - 1])
+    for j in range(m):
+        last += abs(patch[n - 1, j])
+    return ROUNDING * total + last
 
 
 @compiled
-def patch_of(panel, W):
+def inside(edges, low, high, P, W):
+    """Whether a point is on the panel, or near it in thrust."""
+    return W >= 0 and edges[-1] >= W and abs(P - low) <= 2 * (high - low)
+
+
+@compiled
+def patch_of(edges, W):
     """The patch that holds W."""
     q = 0
-    while q < len(panel.edges) - 2 and panel.edges[q + 1] < W:
+    while q < len(edges) - 2 and edges[q + 1] < W:
         q += 1
     return q
 
 
 @compiled
-def scaled(panel, q, P, W):
-    """A point in the patch's own coordinates, and their derivatives."""
-    low, high, bottom, top = panel.thrusts[0], panel.thrusts[-1], panel.edges[q], panel.edges[q + 1]
+def derivatives(patch, rows, low, high, bottom, top, P, W):
+    """D, D_P, D_W, D_WW, D_WP and D_PP of a vehicle from its patch; ``rows`` is room for three of its rows."""
     to_x, to_y = 2 / (high - low), 2 / (top - bottom)
-    return to_x * (P - low) - 1, to_y * (W - bottom) - 1, to_x, to_y
-
-
-@compiled
-def derivatives(panel, patch, q, P, W):
-    """D, D_P, D_W, D_WW, D_WP and D_PP of a vehicle."""
-    x, y, to_x, to_y = scaled(panel, q, P, W)
-    rows = np.zeros((3, patch.shape[1]))
+    x, y = to_x * (P - low) - 1, to_y * (W - bottom) - 1
+    n, m = patch.shape
+    for j in range(m):
+        rows[0, j] = rows[1, j] = rows[2, j] = 0.0
     t, t_, d, d_, e, e_ = 1.0, x, 0.0, 1.0, 0.0, 0.0  # T_p, T_p' and T_p'' and their successors
-    for p in range(patch.shape[0]):
-        for j in range(patch.shape[1]):
+    for p in range(n):
+        for j in range(m):
             rows[0, j] += t * patch[p, j]
             rows[1, j] += d * patch[p, j]
             rows[2, j] += e * patch[p, j]
         t, t_, d, d_, e, e_ = t_, 2 * x * t_ - t, d_, 2 * t_ + 2 * x * d_ - d, e_, 4 * d_ + 2 * x * e_ - e
     D = D_P = D_W = D_WW = D_WP = D_PP = 0.0
     t, t_, d, d_, e, e_ = 1.0, y, 0.0, 1.0, 0.0, 0.0
-    for j in range(patch.shape[1]):
+    for j in range(m):
         D += t * rows[0, j]
         D_P += t * rows[1, j]
         D_W += d * rows[0, j]
@@ -118,18 +124,3 @@ def derivatives(panel, patch, q, P, W):
         D_PP += t * rows[2, j]
         t, t_, d, d_, e, e_ = t_, 2 * y * t_ - t, d_, 2 * t_ + 2 * y * d_ - d, e_, 4 * d_ + 2 * y * e_ - e
     return D, to_x * D_P, to_y * D_W, to_y * to_y * D_WW, to_x * to_y * D_WP, to_x * to_x * D_PP
-
-
-@compiled
-def value(panel, patch, q, P, W):
-    """D of a vehicle."""
-    x, y, _, _ = scaled(panel, q, P, W)
-    total, t, t_ = 0.0, 1.0, x
-    for p in range(patch.shape[0]):
-        row, u, u_ = 0.0, 1.0, y
-        for j in range(patch.shape[1]):
-            row += u * patch[p, j]
-            u, u_ = u_, 2 * y * u_ - u
-        total += t * row
-        t, t_ = t_, 2 * x * t_ - t
-    return total

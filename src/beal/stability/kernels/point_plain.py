@@ -29,7 +29,7 @@ def critical(panel: Panel, weights: Array, P: Array, W: Array, i: int) -> tuple[
     step_P, step_W = step(D, D_P, D_W, D_WW, D_WP, D_PP)
     q = _patch_of(panel, W)
     P, W = P - step_P, W - step_W
-    rounding = ROUNDING * np.abs(_own(weights, panel.patches, q)).sum(axis=1)
+    rounding = _uncertainty(panel, weights, q)
     shift = np.abs(_derivatives(panel, weights, panel.coarser, q, P, W)[0])
     good &= (sign * D_P < 0) & ((i == 0) | (sign * D_WW < 0))
     return P, W, (shift + rounding) / np.abs(D_P), good
@@ -47,7 +47,7 @@ def bottom(panel: Panel, weights: Array, P: Array, W: Array, i: int) -> tuple[Ar
 
     P, W, values, good = _newton(panel, weights, P, W, step, 1e-7)
     good &= (i == 0) | (sign * values[3] < 0)
-    rounding = ROUNDING * np.abs(_own(weights, panel.patches, _patch_of(panel, W))).sum(axis=1)
+    rounding = _uncertainty(panel, weights, _patch_of(panel, W))
     return np.where(good, P, np.inf), W, sign * values[0], rounding
 
 
@@ -86,6 +86,16 @@ def _own(weights: Array, patches: Array, q: Integers) -> Array:
         here = q == patch
         own[here] = weights[here] @ patches[patch]
     return own
+
+
+def _uncertainty(panel: Panel, weights: Array, q: Integers) -> Array:
+    """Of D: rounding, and what the series leaves out, which is less than its last terms."""
+    terms = np.abs(_own(weights, panel.patches, q)).reshape(
+        len(q), panel.degree + 1, panel.patches.shape[2] // (panel.degree + 1)
+    )
+    share = np.full(terms.shape[1:], ROUNDING)
+    share[-1], share[:, -1] = 1.0, 1.0
+    return np.einsum("vpw,pw->v", terms, share)
 
 
 def _derivatives(panel: Panel, weights: Array, patches: Array, q: Integers, P: Array, W: Array) -> Array:

@@ -13,4 +13,4 @@ NEAR = 0.25  # share of the step by which interpolation may be wrong
 NARROW = 1e-7  # share of the panel below which an interval is not halved
 HALVINGS = 48  # of intervals, for one vehicle
 NEWTON = 12
-ROUNDING = 2e-14  # of D, as a share of the sum of its Chebyshev coefficients
+ROUNDING = 5e-14  # of D, as a share of the sum of its Chebyshev coefficients

@@ -40,44 +40,63 @@ def scan(panel, weights, kind, ridge, found):
     found : ndarray, shape (vehicles, 4)
         Thrust, W, error estimate, and whether on a border.
     """
-    thrusts, W, grid = panel.thrusts, panel.W, len(panel.W)
+    thrusts, W, nodes, series, edges, patches, coarser, degree = panel  # whole, it would be counted at every use
+    grid, low, high = len(W), thrusts[0], thrusts[-1]
+    patch = np.empty((degree + 1, patches.shape[2] // (degree + 1)))
+    rows = np.empty((3, patch.shape[1]))
     flat = np.empty(4 * grid)
     lines = flat.reshape(4, grid)
-    own = np.empty((len(panel.series), 4 * grid))
+    own = np.empty((len(series), 4 * grid))
     left, right, result = np.empty((3, RIDGES)), np.empty((3, RIDGES)), np.empty(5)
     scale, cells, ahead = np.empty(RIDGES), np.empty(RIDGES, dtype=np.int64), np.empty(HALVINGS + 1)
-    span = thrusts[-1] - thrusts[0]
     for v in range(len(weights)):
         w = weights[v]
         kind[v], ridge[v] = UNDECIDED, 0
         found[v, :] = np.nan
         found[v, 3] = 0.0
-        combine(w, panel.nodes[0], flat)
+        combine(w, nodes[0], flat)
         count, sound = state(lines, W, cells, left)
         if not sound or not positive(left, count):
             continue
         scale[:] = 0.0
-        expanded, halvings, outcome, here = False, 0, CLEAR, thrusts[0]
+        expanded, halvings, outcome, here = False, 0, CLEAR, low
         for k in range(1, len(thrusts)):
             depth = 1
             ahead[0] = thrusts[k]
             while depth and halvings < HALVINGS:
                 there = ahead[depth - 1]
                 if depth == 1:
-                    combine(w, panel.nodes[k], flat)
+                    combine(w, nodes[k], flat)
                 else:
                     if not expanded:
                         for p in range(len(own)):
-                            combine(w, panel.series[p], own[p])
+                            combine(w, series[p], own[p])
                         expanded = True
-                    series_at(own, 2 * (there - thrusts[0]) / span - 1, flat)
+                    series_at(own, 2 * (there - low) / (high - low) - 1, flat)
                 above, sound = state(lines, W, cells, right)
                 for i in range(count):
                     scale[i] = max(scale[i], abs(left[1, i]))
                 if sound and quiet(left, count, right, above, there - here):
                     outcome = CLEAR
                 elif sound:
-                    outcome = between(panel, w, left, count, here, right, above, there, scale, result)
+                    outcome = between(
+                        edges,
+                        patches,
+                        coarser,
+                        low,
+                        high,
+                        patch,
+                        rows,
+                        w,
+                        left,
+                        count,
+                        here,
+                        right,
+                        above,
+                        there,
+                        scale,
+                        result,
+                    )
                     if outcome != UNCLEAR:
                         found[v, 3] = max(found[v, 3], result[4])
                 else:
@@ -89,7 +108,7 @@ def scan(panel, weights, kind, ridge, found):
                 elif outcome == FOUND:
                     break
                 else:
-                    halvings = halvings + 1 if there - here > NARROW * span else HALVINGS
+                    halvings = halvings + 1 if there - here > NARROW * (high - low) else HALVINGS
                     ahead[depth] = (here + there) / 2
                     depth += 1
             if outcome != CLEAR:
@@ -177,7 +196,7 @@ def quiet(left, count, right, above, step):
 
 
 @compiled
-def between(panel, w, left, count, here, right, above, there, scale, result):
+def between(edges, patches, coarser, low, high, patch, rows, w, left, count, here, right, above, there, scale, result):
     """What happens between two thrusts; fills in thrust, W, error, ridge of the first instability, and border."""
     result[0], result[4] = np.inf, 0.0
     if above < count - 1:
@@ -200,7 +219,7 @@ def between(panel, w, left, count, here, right, above, there, scale, result):
             if value - SLACK * (abs(da) + abs(db) + abs(b - a)) > DIP * min(a, b):
                 continue
             guess, at = here + share * step, (1 - share) * left[0, i] + share * right[0, i]
-            end, at, height, rounding = bottom(panel, w, guess, at, i)
+            end, at, height, rounding = bottom(edges, patches, low, high, patch, rows, w, guess, at, i)
             if not here < end < there or abs(height - value) > NEAR * min(a, b):
                 return UNCLEAR
             flat = max(FLAT * scale[i], rounding)
@@ -215,7 +234,8 @@ def between(panel, w, left, count, here, right, above, there, scale, result):
         guess = here + share * (end - here)
         if guess - NEAR * step > result[0]:
             continue
-        P, at, error, good = critical(panel, w, guess, (1 - share) * left[0, i] + share * at, i)
+        at = (1 - share) * left[0, i] + share * at
+        P, at, error, good = critical(edges, patches, coarser, low, high, patch, rows, w, guess, at, i)
         if not good or P <= here or abs(P - guess) > NEAR * step:
             return UNCLEAR
         if P > end:

@@ -23,20 +23,24 @@ def determinants(H, left, right, s):
     """
     n, m = right.shape
     values = np.empty((2**m, len(s)))
-    A, x, G = np.empty((n, n)), np.empty((n, m)), np.empty((m, m))
+    A, G = np.empty((n + m, n + m)), np.empty((m, m))
     rows, pivots, products = np.empty((m, m)), np.empty(m, dtype=np.int64), np.empty(m + 1)
     for j in range(len(s)):
-        for r in range(n):
-            for c in range(max(r - 1, 0), n):
+        for r in range(n):  # I - s H with the columns of right beside it and the rows of left below
+            for c in range(n):
                 A[r, c] = -s[j] * H[r, c]
             A[r, r] += 1.0
-        x[:] = right
-        products[0] = solve(A, x)
+            for u in range(m):
+                A[r, n + u] = right[r, u]
+        for t in range(m):
+            for r in range(n):
+                A[n + t, r] = left[r, t]
+            for u in range(m):
+                A[n + t, n + u] = 0.0
+        products[0] = eliminate(A, n)
         for t in range(m):
             for u in range(m):
-                G[t, u] = 0.0
-                for r in range(n):
-                    G[t, u] += left[r, t] * x[r, u]
+                G[t, u] = -A[n + t, n + u]
         for number in range(2**m):  # its binary digits, the highest first: whether each spring is rigid
             same = m
             while same and (number == 0 or (number ^ (number - 1)) >> (m - same)):
@@ -52,31 +56,29 @@ def determinants(H, left, right, s):
 
 
 @compiled
-def solve(A, x):
-    """Solution of A x = x for an upper Hessenberg A, in place, and its determinant."""
-    n, m = x.shape
+def eliminate(A, n):
+    """The determinant of the leading block, upper Hessenberg; its Schur complement is left in the last rows."""
     determinant = 1.0
+    size = len(A)
     for k in range(n):
-        if k + 1 < n:
-            if abs(A[k + 1, k]) > abs(A[k, k]):
-                determinant = -determinant
-                for c in range(k, n):
-                    A[k, c], A[k + 1, c] = A[k + 1, c], A[k, c]
-                for u in range(m):
-                    x[k, u], x[k + 1, u] = x[k + 1, u], x[k, u]
-            factor = A[k + 1, k] / A[k, k]
-            for c in range(k + 1, n):
-                A[k + 1, c] -= factor * A[k, c]
-            for u in range(m):
-                x[k + 1, u] -= factor * x[k, u]
+        if k + 1 < n and abs(A[k + 1, k]) > abs(A[k, k]):
+            determinant = -determinant
+            for c in range(k, size):
+                A[k, c], A[k + 1, c] = A[k + 1, c], A[k, c]
         determinant *= A[k, k]
-    for k in range(n - 1, -1, -1):
-        for u in range(m):
-            total = x[k, u]
-            for c in range(k + 1, n):
-                total -= A[k, c] * x[c, u]
-            x[k, u] = total / A[k, k]
+        if k + 1 < n:
+            subtract(A, k + 1, k)
+        for row in range(n, size):
+            subtract(A, row, k)
     return determinant
+
+
+@compiled
+def subtract(A, row, k):
+    """Eliminates column k of a row."""
+    factor = A[row, k] / A[k, k]
+    for c in range(k + 1, A.shape[1]):
+        A[row, c] -= factor * A[k, c]
 
 
 @compiled
