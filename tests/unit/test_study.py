@@ -157,3 +157,12 @@ def test_a_ritz_formulation_is_refused_with_the_reason_where_it_does_not_apply()
     held = VEHICLE.model_copy(update={"support": beal.Support(nose="clamped")})
     with pytest.raises(beal.ModelError, match=r"as-printed: applies to the paper's vehicle only.*free ends"):
         beal.stability_map(held, {SHEAR: [1e3]}, formulation="as-printed")
+
+
+def test_the_tangency_of_a_vehicle_that_tumbles_does_not_spoil_the_tables_of_the_others():
+    axes = {"thrust.tangency": [1.0, 0.9], ROTATIONAL: np.geomspace(10, 1e4, 6)}
+    found = beal.stability_map(VEHICLE, axes)
+    method = found["method"].attrs["flag_meanings"].split()
+    assert {method[n] for n in found["method"].values[0]} == {"tables"}
+    assert {method[n] for n in found["method"].values[1]} == {"single"}
+    assert found["critical_thrust"].values[1].tolist() == [0.0] * 6

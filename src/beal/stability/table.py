@@ -72,9 +72,14 @@ class Panel(NamedTuple):
     degree: int
 
 
-def tabulated(path: str) -> bool:
-    """Whether vehicles that differ in this quantity share a table."""
-    return path == TANGENCY or _SPRING.fullmatch(path) is not None
+def tabulated(vehicle: Vehicle, path: str) -> bool:
+    """Whether vehicles that differ from this one in a quantity share a table.
+
+    The tangency of a free-free vehicle is none: below 1 it tumbles, and a rigid-body root would spoil the table.
+    """
+    if path == TANGENCY:
+        return not vehicle.free_free
+    return _SPRING.fullmatch(path) is not None
 
 
 def reference(vehicle: Vehicle, path: str) -> float:

@@ -91,7 +91,7 @@ def blocks(study: Study) -> Blocks:
     rows, sharing = target / _row(study), _sharing(study)
     room = rows * sharing if rows >= 1 else min(sharing, target / (TOGETHER if together(study) else ALONE))
     sizes = [1] * len(study.shape)
-    order = sorted(range(len(sizes)), key=lambda axis: (tabulated(list(study.axes)[axis]), axis), reverse=True)
+    order = sorted(range(len(sizes)), key=lambda axis: (tabulated(study.vehicle, list(study.axes)[axis]), axis), reverse=True)
     for axis in order:
         fits = max(1, int(room / math.prod(sizes)))
         parts = math.ceil(study.shape[axis] / fits)
@@ -103,7 +103,7 @@ def blocks(study: Study) -> Blocks:
 
 def _sharing(study: Study) -> int:
     """Points that share a table."""
-    return math.prod(n for path, n in zip(study.axes, study.shape, strict=True) if tabulated(path))
+    return math.prod(n for path, n in zip(study.axes, study.shape, strict=True) if tabulated(study.vehicle, path))
 
 
 def _row(study: Study) -> float:

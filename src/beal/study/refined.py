@@ -240,7 +240,7 @@ class _Solver:
 
 def _parts(study: Study, values: Values, points: NDArray[np.intp]) -> Iterator[Part]:
     """Points in parts of about one cost, those that differ in springs alone next to each other."""
-    others = [axis for axis, path in enumerate(study.axes) if not tabulated(path)]
+    others = [axis for axis, path in enumerate(study.axes) if not tabulated(study.vehicle, path)]
     if others:
         points = points[np.lexsort(values[points][:, others].T)]
     size = MOST if together(study) else FEW

@@ -42,7 +42,7 @@ def solve_points(study: Study, values: Values) -> Arrays:
         The variables of `beal.study.store.VARIABLES`.
     """
     arrays = empty((len(values),))
-    shared = {axis: path for axis, path in enumerate(study.axes) if tabulated(path)}
+    shared = {axis: path for axis, path in enumerate(study.axes) if tabulated(study.vehicle, path)}
     others = [axis for axis in range(values.shape[1]) if axis not in shared]
     _, group = np.unique(values[:, others], axis=0, return_inverse=True)
     for points in np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1]):
