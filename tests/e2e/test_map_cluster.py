@@ -14,6 +14,8 @@ from beal.errors import ModelError
 from beal.study.cluster import _executor
 
 COMMAND = Path(sys.executable).with_name("beal")
+# Ctrl-C must reach it also where the tests run in the background, which ignores that.
+ON_ITS_OWN = {"start_new_session": True, "preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
 STUDY = """
 model = "tsto.toml"
 [grid]
@@ -41,7 +43,7 @@ def contents(store):
 
 def begun(folder):
     run = subprocess.Popen(
-        [COMMAND, *ON_DASK], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+        [COMMAND, *ON_DASK], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **ON_ITS_OWN
     )
     while run.poll() is None and not [*(folder / "dask.zarr" / "status" / "c").glob("*/*")]:
         time.sleep(0.01)

@@ -12,6 +12,8 @@ import pytest
 import xarray
 
 COMMAND = Path(sys.executable).with_name("beal")
+# Ctrl-C must reach it also where the tests run in the background, which ignores that.
+ON_ITS_OWN = {"start_new_session": True, "preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
 STUDY = """
 model = "tsto.toml"
 [grid]
@@ -30,7 +32,7 @@ def test_an_interrupted_map_is_resumed(beal, result_of, written, tmp_path, worke
     arguments = ["map", written(STUDY, "study.toml"), "-o", "map.zarr", "--workers", str(workers)]
     output = tmp_path / "map.zarr"
     with subprocess.Popen(
-        [COMMAND, *arguments], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+        [COMMAND, *arguments], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **ON_ITS_OWN
     ) as run:
         while run.poll() is None and not done_blocks(output):
             time.sleep(0.01)
