@@ -91,7 +91,8 @@ def blocks(study: Study) -> Blocks:
     rows, sharing = target / _row(study), _sharing(study)
     room = rows * sharing if rows >= 1 else min(sharing, target / (TOGETHER if together(study) else ALONE))
     sizes = [1] * len(study.shape)
-    order = sorted(range(len(sizes)), key=lambda axis: (tabulated(study.vehicle, list(study.axes)[axis]), axis), reverse=True)
+    shared = [tabulated(study.vehicle, path) for path in study.axes]
+    order = sorted(range(len(sizes)), key=lambda axis: (shared[axis], axis), reverse=True)
     for axis in order:
         fits = max(1, int(room / math.prod(sizes)))
         parts = math.ceil(study.shape[axis] / fits)
