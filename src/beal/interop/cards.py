@@ -2,7 +2,6 @@
 
 import os
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -145,18 +144,22 @@ def _unfolded(path: Path, prefix: str, above: list[Path], deck: Deck) -> tuple[l
     content = read_bytes(path, LARGEST_DECK, "Nastran bulk data")
     if b"\0" in content:
         raise ModelError("holds null bytes: expected a text file of Nastran bulk data", str(path))
-    raw = iter(enumerate(content.decode("latin-1").expandtabs(8).splitlines(), 1))
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1")  # decks are ASCII; what else there is stands in comments
+    raw = iter(enumerate(text.expandtabs(8).split("\n"), 1))
     lines: list[_Line] = []
     comment = None
-    for number, text in raw:
+    for number, line in raw:
         place = f"{prefix}line {number}"
-        if text.lstrip().startswith("$"):
-            comment = text.lstrip()[1:].strip()
+        if line.lstrip().startswith("$"):
+            comment = line.strip()[1:].strip()
             if comment.startswith(KEPT):
                 deck.kept.append(comment.removeprefix(KEPT).removeprefix(" "))
                 comment = None
             continue
-        text = text.split("$")[0].rstrip()
+        text = line.split("$")[0].rstrip()
         if _END.match(text):
             return lines, True
         if match := _INCLUDE.match(text):
@@ -235,5 +238,3 @@ def _split(text: str) -> tuple[str, bool, list[str], str]:
     if name[:1] in ("+", "*"):
         return name, name[0] == "*", fields, label
     return name.removesuffix("*").strip().upper(), name.endswith("*"), fields, label
-
-

@@ -3,17 +3,24 @@
 import os
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from beal.errors import ModelError
+from beal.interop.matlab import write_matlab
 from beal.interop.nastran import Imported, read_nastran
 from beal.interop.nastran_deck import nastran_text
+from beal.interop.netcdf import write_netcdf
 from beal.interop.stations import read_stations, stations_sheet, stations_text
+from beal.interop.uff import write_uff
 from beal.vehicle.file import dumps
 from beal.vehicle.file import load as load_toml
 from beal.vehicle.vehicle import Vehicle
 
+if TYPE_CHECKING:
+    import xarray
+
 DECKS, TABLES = (".bdf", ".dat", ".nas"), (".csv", ".xlsx")
+RESULTS = {".nc": write_netcdf, ".mat": write_matlab, ".uff": write_uff, ".unv": write_uff}
 
 
 def load(path: str | os.PathLike[str]) -> Vehicle:
@@ -70,7 +77,9 @@ def imported(path: str | os.PathLike[str], **options: Any) -> Imported:
     }.get(ending, ())
     if unsuited := [name for name in options if name not in known]:
         choices = f"takes {', '.join(known)}" if known else "takes no options"
-        raise ModelError([(name, f"does not suit {ending or 'this'} files, which {choices}"[:200]) for name in unsuited])
+        raise ModelError(
+            [(name, f"does not suit {ending or 'this'} files, which {choices}"[:200]) for name in unsuited]
+        )
     if ending in DECKS:
         return read_nastran(path, **options)
     return read_stations(path, **options) if ending in TABLES else Imported(load_toml(path))
@@ -107,3 +116,23 @@ def content(vehicle: Vehicle, path: str | os.PathLike[str], elements: int | None
     if ending not in writers:
         raise ModelError(f"must end with {', '.join((*writers, '.xlsx', *DECKS))}", str(path))
     return writers[ending](vehicle).encode()
+
+
+def write_result(dataset: "xarray.Dataset", path: str | os.PathLike[str], ending: str) -> None:
+    """Write a result of `beal.interop.results` as a file of another program.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    path : str or path-like
+    ending : str
+        ``.nc``, ``.mat``, ``.uff`` or ``.unv``: the kind of file.
+
+    Raises
+    ------
+    ModelError
+        If the universal file format has no place for this result.
+    """
+    if RESULTS[ending] is write_uff and not {"point", "time"} & set(dataset.dims):
+        raise ModelError(f"{ending} files hold mode shapes and time histories: give .csv, .nc or .mat")
+    RESULTS[ending](dataset, path)

@@ -108,7 +108,8 @@ def read_nastran(
     if kept.get("units") != "nondimensional":
         found.notes.insert(1, f"units: {length_unit}, {force_unit}, s; mass in {force_unit} s^2/{length_unit}")
         _scale(data, *scales)
-    vehicle = vehicle_from(_merged({"title": Path(path).stem, **kept}, data, source), source)
+    title = "" if deck.kept else Path(path).stem
+    vehicle = vehicle_from({"title": title, **_merged(kept, data, source)}, source)
     return Imported(vehicle, tuple(found.notes), tuple(found.ignored))
 
 

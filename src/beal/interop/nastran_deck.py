@@ -69,7 +69,14 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     }
     said = {kind: [*keys, "name"] if named.get(kind, True) else keys for kind, keys in SAID.items()}
     cards = list(_bulk(vehicle, elements))
-    head = ["$ beam model of a flexible vehicle, written by beal", "SOL 103", "CEND", "METHOD = 1", "SPC = 1", "BEGIN BULK"]
+    head = [
+        "$ beam model of a flexible vehicle, written by beal",
+        "SOL 103",
+        "CEND",
+        "METHOD = 1",
+        "SPC = 1",
+        "BEGIN BULK",
+    ]
     rest = [f"$ {KEPT} {line}" for line in (dumps_rest(vehicle, said) or "\n").splitlines()]
     return "\n".join([head[0], *rest, *head[1:], *cards, "ENDDATA", ""])
 
@@ -99,9 +106,9 @@ def _bulk(vehicle: Vehicle, elements: int) -> Iterator[str]:
     for index, mass in enumerate(vehicle.point_masses, len(bars) + 2 * len(vehicle.joints) + 1):
         grid = _grid_at(vehicle, mass.station, grids, faces)
         yield f"$ {titled(mass.name) or '-'}"
-        yield from _large("CONM2", index, grid, 0, mass.mass)
         inertia = mass.rotary_inertia
-        yield from list(_large("", None, None, None, None, None, None, None, None, inertia, None, inertia, None, None, inertia))[2:]
+        moments = (inertia, None, inertia, None, None, inertia)
+        yield from _large("CONM2", index, grid, 0, mass.mass, None, None, None, None, *(moments if inertia else ()))
 
 
 def _mesh(vehicle: Vehicle, elements: int) -> tuple[list[float], list[tuple[int, int, int]], list[tuple[int, int]]]:

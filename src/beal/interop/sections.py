@@ -46,7 +46,14 @@ def section(card: Card) -> Section:
 def _pbar(card: Card) -> Section:
     area, first, second = (card.real(n, 0.0) for n in (3, 4, 5))
     return Section(
-        card.integer(2), area, first, second, card.real(19, 0.0), card.real(7, 0.0), card.real(17, 0.0), card.real(18, 0.0)
+        card.integer(2),
+        area,
+        first,
+        second,
+        card.real(19, 0.0),
+        card.real(7, 0.0),
+        card.real(17, 0.0),
+        card.real(18, 0.0),
     )
 
 

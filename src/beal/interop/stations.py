@@ -124,7 +124,7 @@ def _columns(
     if len(rows) < 2:
         problems.append(("table", "needs a row of names and at least one of numbers"))
         return {}, []
-    head = [cell for cell in rows[0][1]]
+    head = rows[0][1]
     bare = [cell.partition("[")[0].strip() for cell in head]
     places = {key: names.get(key, key) for key in UNITS}
     unknown = [key for key in names if key not in UNITS]
@@ -167,7 +167,9 @@ def _stages(
     """Stages from nose to tail."""
     starts, ends = (table[key] for key in (("x", "x") if "x" in table else ("x_start", "x_end")))
     values = list(zip(table["mass_per_length"], table["bending_stiffness"], strict=True))
-    pieces = list(_between(starts, values, numbers, problems) if "x" in table else _each(starts, ends, values, numbers, problems))
+    pieces = list(
+        _between(starts, values, numbers, problems) if "x" in table else _each(starts, ends, values, numbers, problems)
+    )
     if not pieces and not problems:
         problems.append(("table", "needs at least two stations"))
     return [
@@ -235,11 +237,11 @@ def station_rows(vehicle: Vehicle) -> list[list[str | float]]:
     [0.0, 1.0, 1.0]
     [1.0, 1.0, 1.0]
     """
-    rest = [f"{KEPT} {line}" for line in dumps_rest(vehicle, SAID).splitlines()]
     units = {"x": "m", "mass_per_length": "kg/m", "bending_stiffness": "N*m^2"}
     head = [f"{name} [{unit}]" if vehicle.units == "SI" else name for name, unit in units.items()]
-    title = [] if vehicle.title else [f'{KEPT} title = ""']
-    rows: list[list[str | float]] = [*([line] for line in (*title, *rest)), [*head]]
+    rest = ([] if vehicle.title else ['title = ""']) + dumps_rest(vehicle, SAID).splitlines()
+    rows: list[list[str | float]] = [[f"{KEPT} {line}"] for line in rest]
+    rows.append([*head])
     for stage, start, end in zip(vehicle.stages, vehicle.boundaries, vehicle.boundaries[1:], strict=False):
         rows += [[x, *_properties(stage)] for x in (start, end)]
     return rows

@@ -1,4 +1,4 @@
-"""A structure of bars along one line becomes stages, joints, point masses and supports, or is refused with every reason."""
+"""Bars along one line become stages, joints, point masses and supports, or are refused with every reason."""
 
 import math
 from collections import Counter
@@ -176,7 +176,9 @@ def _pieces(found: Structure, view: View) -> Iterator[Piece]:
     if unlike:
         found.notes.append(f"{unlike} bars are not equally stiff in both planes: the plane {view.plane} is taken")
     if sheared:
-        found.ignored.append(f"{sheared} bars are flexible in shear (K1, K2): left out, stages are Euler-Bernoulli beams")
+        found.ignored.append(
+            f"{sheared} bars are flexible in shear (K1, K2): left out, stages are Euler-Bernoulli beams"
+        )
 
 
 def _bending_plane(found: Structure, bar: Bar, view: View) -> int:
@@ -252,7 +254,9 @@ def _add_masses(found: Structure, result: Stick, used: set[int]) -> None:
         station = stations[grid]
         if grid in forward:
             station -= SAME_PLACE * length  # at a joint's own station a mass sits on the aft face
-            found.notes.append(f"{where}: is moved forward by {SAME_PLACE:g} of the length, to the joint's forward face")
+            found.notes.append(
+                f"{where}: is moved forward by {SAME_PLACE:g} of the length, to the joint's forward face"
+            )
         name = titled(item.card.comment or "")
         part = {
             "station": station,
@@ -273,7 +277,9 @@ def _check_spring(found: Structure, result: Stick, grid: int, on: int) -> None:
     own = min((math.sqrt(k / m) for k, m in pairs if m > 0), default=math.inf)
     length = result.pieces[-1].end
     flexibility = sum((piece.end - piece.start) / piece.stiffness for piece in result.pieces) / length
-    total = sum((p.end - p.start) * p.mass for p in result.pieces) + sum(found.mass_factor * m.mass for m in found.masses)
+    total = sum((p.end - p.start) * p.mass for p in result.pieces) + sum(
+        found.mass_factor * m.mass for m in found.masses
+    )
     bending = FREE_FREE / math.sqrt(flexibility * total * length**3)
     if own < STIFF_ENOUGH * bending:
         found.problems.append(

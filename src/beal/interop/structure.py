@@ -1,5 +1,6 @@
 """Nastran cards understood one by one: grids, bars, properties, masses, springs, rigid links and constraints."""
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
@@ -8,11 +9,11 @@ from beal.interop.sections import Section, section
 
 Vector = tuple[float, float, float]
 
-SETTINGS = frozenset(
-    "PARAM EIGRL EIGR EIGB EIGC FREQ FREQ1 FREQ2 FREQ3 FREQ4 TSTEP TABDMP1 TABLED1 DLOAD RLOAD1 RLOAD2 TLOAD1 TLOAD2 DAREA"
-    " FORCE MOMENT LOAD GRAV PLOAD1 SUPORT SUPORT1 SPOINT SET ASET ASET1 OMIT OMIT1 ECHOON ECHOOFF PLOTEL".split()
+SETTINGS = re.compile(  # of analyses, loads and plots: no part of a vehicle
+    "PARAM|EIG(RL|R|B|C)|FREQ[1-5]?|TSTEP|TABDMP1|TABLED1|[DRT]LOAD[12]?|DAREA|FORCE|MOMENT|LOAD|GRAV|PLOAD1|SUPORT1?|SPOINT"
+    "|SET[13]?|ASET1?|OMIT1?|ECHO(ON|OFF)|PLOTEL"
 )
-COUPLING = frozenset("RBE1 RBE3 RBAR RROD RTRPLT MPC MPCADD SPCADD SPCD GENEL DMIG GRDSET BAROR BEAMOR".split())
+COUPLING = re.compile("RBE[13]|RBAR1?|RROD|RTRPLT|MPC(ADD)?|SPC(ADD|D)|GENEL|DMIG|GRDSET|BAROR|BEAMOR|C.*")
 MOST_GRIDS = 1_000_000
 
 
@@ -111,7 +112,7 @@ def understood(deck: Deck) -> Structure:
                 found.links.append(_cbush(found, card, bushes))
             elif card.name in ("SPC", "SPC1"):
                 _constrain(found, card)
-            elif card.name in SETTINGS:
+            elif SETTINGS.fullmatch(card.name):
                 left[card.name] = left.get(card.name, 0) + 1
                 _setting(found, card)
             elif card.name != "PBUSH":
@@ -128,7 +129,7 @@ def _refuse(found: Structure, card: Card) -> None:
     """Unknown cards: what may add stiffness, mass or coupling cannot be left out."""
     if card.name.startswith("CORD"):
         found.problems.append((card.where, "only CORD2R along the basic axes is read: give the grids in basic axes"))
-    elif card.name in COUPLING or card.name[0] == "C":
+    elif COUPLING.fullmatch(card.name):
         found.problems.append((card.where, "is not read: a stick has CBAR, CBEAM, CONM2, CBUSH, CELAS2 and RBE2 only"))
     else:
         found.ignored.append(f"{card.where}: unknown, left out")
@@ -275,7 +276,9 @@ def _constrain(found: Structure, card: Card) -> None:
         for grid, components in _constraints(card):
             found.held.setdefault(grid, set()).update(components)
     else:
-        found.ignored.append(f"{card.where}: set {found.constraint_set} of the constraints is in use, this one left out")
+        found.ignored.append(
+            f"{card.where}: set {found.constraint_set} of the constraints is in use, this one left out"
+        )
 
 
 def _constraints(card: Card) -> Iterator[tuple[int, set[int]]]:
