@@ -9,7 +9,7 @@ from beal.errors import ModelError
 from beal.vehicle.file import read_bytes
 
 LARGEST_DECK = 20_000_000  # bytes, included files counted: a stick model has thousands of lines, not millions
-DEEPEST = 10  # files included from files
+DEEPEST, MOST_FILES = 10, 1000  # files included from files, and all of them
 KEPT = "beal:"  # opens a comment that carries what bulk data cannot say
 
 _BEGIN = re.compile(r"\s*BEGIN\s+BULK\b", re.IGNORECASE)
@@ -94,12 +94,15 @@ class Deck:
         The constraint set that the case control section selects; 0 where it selects none, None where there is none.
     problems : list of (where, message)
         Lines that are no cards.
+    files : int
+        Number of files read.
     """
 
     cards: list[Card] = field(default_factory=list)
     kept: list[str] = field(default_factory=list)
     selected: int | None = None
     problems: list[tuple[str, str]] = field(default_factory=list)
+    files: int = 0
 
 
 @dataclass(frozen=True)
@@ -141,6 +144,7 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
 
 def _unfolded(path: Path, prefix: str, above: list[Path], deck: Deck) -> tuple[list[_Line], bool]:
     """Lines of a file with those of included files in their places, and whether they end with ENDDATA."""
+    deck.files += 1
     content = read_bytes(path, LARGEST_DECK, "Nastran bulk data")
     if b"\0" in content:
         raise ModelError("holds null bytes: expected a text file of Nastran bulk data", str(path))
@@ -167,8 +171,8 @@ def _unfolded(path: Path, prefix: str, above: list[Path], deck: Deck) -> tuple[l
             while name[:1] in ("'", '"') and name.count(name[0]) < 2 and (more := next(raw, None)):
                 name += more[1].strip()  # a long name goes on in the next line
             target = path.parent / name.strip().strip("'\"")
-            if len(above) == DEEPEST or target in (*above, path):
-                raise ModelError(f"includes {target.name} again, or files are nested too deeply", f"{path}: {place}")
+            if len(above) == DEEPEST or deck.files == MOST_FILES or target in (*above, path):
+                raise ModelError(f"includes {target.name} again, or too many files in files", f"{path}: {place}")
             inner, ended = _unfolded(target, f"{target.name} ", [*above, path], deck)
             lines += inner
             if sum(len(line.text) for line in lines) > LARGEST_DECK:

@@ -98,14 +98,14 @@ def _bulk(vehicle: Vehicle, elements: int) -> Iterator[str]:
     before = 0
     for element, (number, fore, aft) in enumerate(bars, 1):
         if number != before:
-            yield f"$ {titled(vehicle.stages[number - 1].name) or '-'}"
+            yield f"$ {_comment(vehicle.stages[number - 1].name)}"
             before = number
         yield f"CBAR,{element},{number},{fore},{aft},0.,1.,0."
     for index, joint in enumerate(vehicle.joints):
         yield from _springs(joint, len(bars) + 2 * index + 1, *faces[index])
     for index, mass in enumerate(vehicle.point_masses, len(bars) + 2 * len(vehicle.joints) + 1):
         grid = _grid_at(vehicle, mass.station, grids, faces)
-        yield f"$ {titled(mass.name) or '-'}"
+        yield f"$ {_comment(mass.name)}"
         inertia = mass.rotary_inertia
         moments = (inertia, None, inertia, None, None, inertia)
         yield from _large("CONM2", index, grid, 0, mass.mass, None, None, None, None, *(moments if inertia else ()))
@@ -151,7 +151,7 @@ def _springs(joint: Joint, number: int, forward: int, aft: int) -> Iterator[str]
     stiffness = {2: joint.shear_stiffness, 6: joint.rotational_stiffness}
     rigid = "".join(str(n) for n, k in stiffness.items() if math.isinf(k))
     soft = [stiffness[n] if n in (2, 6) and str(n) not in rigid else None for n in range(1, 7)]
-    yield f"$ {titled(joint.name) or '-'}"
+    yield f"$ {_comment(joint.name)}"
     yield f"CBUSH,{number},{number},{forward},{aft},,,,0"
     yield from _large("PBUSH", number, "K", *soft)
     if rigid:
@@ -186,6 +186,10 @@ def _number(value: float) -> str:
         if len(text) <= WIDTH:
             return text
     raise ModelError(f"the number {value} does not fit into {WIDTH} columns")
+
+
+def _comment(name: str) -> str:
+    return name if name and _is_title(name) else "-"
 
 
 def _is_title(name: str) -> bool:

@@ -40,7 +40,10 @@ def section(card: Card) -> Section:
     FieldError
         If a field is wrong, or the section is tapered or of a kind that is not known.
     """
-    return {"PBAR": _pbar, "PBARL": _pbarl, "PBEAM": _pbeam}[card.name](card)
+    try:
+        return {"PBAR": _pbar, "PBARL": _pbarl, "PBEAM": _pbeam}[card.name](card)
+    except OverflowError:
+        raise FieldError("its sizes leave the range of numbers") from None
 
 
 def _pbar(card: Card) -> Section:

@@ -109,6 +109,9 @@ def stick(found: Structure, view: View) -> Stick:
     Stick
         Not to be used where problems were found.
     """
+    concerned = {grid for bar in found.bars.values() for grid in (*bar.ends, bar.orientation)}
+    if idle := set(found.grids) - concerned - {mass.grid for mass in found.masses}:
+        found.notes.append(f"{len(idle)} grids carry neither bars nor masses: left out")
     pieces = sorted(_pieces(found, view), key=lambda piece: (piece.start, piece.end))
     result = Stick(pieces, view)
     if not pieces:
@@ -151,10 +154,11 @@ def _pieces(found: Structure, view: View) -> Iterator[Piece]:
         inertia, shear = (section.first, section.first_shear) if plane == 1 else (section.second, section.second_shear)
         stations = [(sign * found.grids[grid][view.axis] - origin, grid) for grid in bar.ends]
         (start, fore), (end, aft) = sorted(stations, key=lambda end: end[0])
+        stiffness = modulus * inertia
         mass = found.mass_factor * (density * section.area + section.added_mass)
         problem = (
-            f"its second moment of area in the plane {view.plane} must be positive, found {inertia:g}"
-            if inertia <= 0
+            f"its bending stiffness in the plane {view.plane} must be positive and finite, found {stiffness:g}"
+            if not 0 < stiffness < math.inf
             else f"its mass per length must not be negative, found {mass:g}"
             if mass < 0
             else "has a product of inertia: its planes are coupled"
@@ -172,7 +176,7 @@ def _pieces(found: Structure, view: View) -> Iterator[Piece]:
             continue
         unlike += section.first != section.second
         sheared += shear != 0
-        yield Piece(bar.card.where, start, end, fore, aft, mass, modulus * inertia, group, name)
+        yield Piece(bar.card.where, start, end, fore, aft, mass, stiffness, group, name)
     if unlike:
         found.notes.append(f"{unlike} bars are not equally stiff in both planes: the plane {view.plane} is taken")
     if sheared:
@@ -280,13 +284,13 @@ def _check_spring(found: Structure, result: Stick, grid: int, on: int) -> None:
     total = sum((p.end - p.start) * p.mass for p in result.pieces) + sum(
         found.mass_factor * m.mass for m in found.masses
     )
-    bending = FREE_FREE / math.sqrt(flexibility * total * length**3)
-    if own < STIFF_ENOUGH * bending:
+    period = math.sqrt(flexibility * total * length * length * length) / FREE_FREE  # per radian, of a uniform beam
+    if own * period < STIFF_ENOUGH:
         found.problems.append(
             (
                 where,
                 f"hangs on a spring of {own:.3g} rad/s, less than {STIFF_ENOUGH:g} times the first bending frequency"
-                f" (about {bending:.3g} rad/s): a vehicle has no sprung masses",
+                f" (about {1 / period:.3g} rad/s): a vehicle has no sprung masses",
             )
         )
     elif own < math.inf:
