@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import signal
 import socket
 import subprocess
@@ -15,6 +16,7 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 CLUSTERS = (ROOT / "docs" / "clusters.md").read_text(encoding="utf-8")
+INTEROP = (ROOT / "docs" / "interop.md").read_text(encoding="utf-8")
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -78,8 +80,36 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert [path.name for path in (ROOT / "docs").rglob("*.md")] == ["clusters.md"]
+    assert sorted(path.name for path in (ROOT / "docs").rglob("*.md")) == ["clusters.md", "interop.md"]
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
+    assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
+
+
+@pytest.fixture
+def interop_folder(readme_folder):
+    shutil.copy(EXAMPLES / "plain_stick.bdf", readme_folder)
+    (readme_folder / "stations.csv").write_text(blocks("csv", INTEROP)[0])
+    return readme_folder
+
+
+def test_the_commands_of_the_page_on_other_programs_print_what_is_shown(interop_folder):
+    for block in blocks("console", INTEROP):
+        for shown in re.findall(r"^\$ .*\n(?:[^$].*\n)*", block, re.MULTILINE):
+            command, _, expected = shown.partition("\n")
+            words = shlex.split(command.removeprefix("$ "))
+            assert words[0] == "beal"
+            assert without_errors(run([*BEAL, *words[1:]], interop_folder)) == without_errors(expected)
+
+
+def without_errors(text):
+    """The error estimates that rounding leaves differ between machines."""
+    return re.sub(r"[\d.]+e-\d+ │", "│", text).strip()
+
+
+@pytest.mark.parametrize("block", blocks("python", INTEROP))
+def test_the_python_of_the_page_on_other_programs_prints_what_it_says(interop_folder, block):
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], interop_folder).strip() == expected
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))

@@ -25,9 +25,9 @@ class Piece:
     mass, stiffness : float
         Per length, and in bending.
     group : int
-        Bars under one comment.
+        Number of the comments above it in the deck.
     name : str
-        That comment.
+        The comment in the line above.
     alone : bool
         Whether it is to stay a stage of its own.
     """

@@ -136,10 +136,9 @@ def _pieces(found: Structure, view: View) -> Iterator[Piece]:
     sign = -1.0 if view.nose == "high" else 1.0
     used = [found.grids[g][view.axis] for bar in found.bars.values() for g in bar.ends if g in found.grids]
     origin = min(sign * x for x in used)
-    unlike, sheared, group, name = 0, 0, 0, ""
+    unlike, sheared, group = 0, 0, 0
     for bar in found.bars.values():
-        if bar.card.comment is not None:
-            group, name = group + 1, titled(bar.card.comment)
+        group += bar.card.comment is not None
         missing = [f"GRID {grid}" for grid in bar.ends if grid not in found.grids]
         section = found.sections.get(bar.section)
         if section is None:
@@ -176,7 +175,7 @@ def _pieces(found: Structure, view: View) -> Iterator[Piece]:
             continue
         unlike += section.first != section.second
         sheared += shear != 0
-        yield Piece(bar.card.where, start, end, fore, aft, mass, stiffness, group, name)
+        yield Piece(bar.card.where, start, end, fore, aft, mass, stiffness, group, titled(bar.card.comment or ""))
     if unlike:
         found.notes.append(f"{unlike} bars are not equally stiff in both planes: the plane {view.plane} is taken")
     if sheared:
@@ -327,8 +326,9 @@ def described(result: Stick, spread: bool, problems: Problems, notes: list[str])
                 joints.append(_springs(joint, result.view.components))
             start = piece.start
             properties = {"mass_per_length": piece.mass, "bending_stiffness": piece.stiffness}
-            name = {"name": piece.name} if piece.name and (before is None or piece.group != before.group) else {}
-            stages.append({**name, "length": piece.end - piece.start, **properties})
+            stages.append({"length": piece.end - start, **properties})
+        if piece.name:
+            stages[-1]["name"] = piece.name
         before = piece
     return {"stage": stages, "joint": joints, "point_mass": masses, "support": result.support}
 
