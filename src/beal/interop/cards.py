@@ -8,7 +8,7 @@ from pathlib import Path
 from beal.errors import ModelError
 from beal.vehicle.file import read_bytes
 
-LARGEST_DECK = 20_000_000  # bytes, included files counted: a stick model has thousands of lines, not millions
+LARGEST_DECK = 5_000_000  # bytes, included files counted: ten thousand bars
 DEEPEST, MOST_FILES = 10, 1000  # files included from files, and all of them
 KEPT = "beal:"  # opens a comment that carries what bulk data cannot say
 

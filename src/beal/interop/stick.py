@@ -284,7 +284,7 @@ def _check_spring(found: Structure, result: Stick, grid: int, on: int) -> None:
         found.mass_factor * m.mass for m in found.masses
     )
     period = math.sqrt(flexibility * total * length * length * length) / FREE_FREE  # per radian, of a uniform beam
-    if own * period < STIFF_ENOUGH:
+    if period > 0 and own * period < STIFF_ENOUGH:
         found.problems.append(
             (
                 where,
