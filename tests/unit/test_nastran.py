@@ -9,6 +9,7 @@ from beal.interop.nastran import read_nastran
 from beal.interop.nastran_deck import nastran_text
 from beal.vehicle import catalog
 from beal.vehicle.file import loads
+from beal.vehicle.parts import PointMass
 
 BARS = "CBAR,1,1,1,2,0.,1.,0.\nCBAR,2,2,2,3,0.,1.,0.\n"
 GRIDS = "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,5.,0.,0.\n"
@@ -104,6 +105,12 @@ def test_a_named_continuation_is_found_wherever_it_stands(vehicle_of):
     head, tail = "PBAR,1,1,2.,3.,4.,,.5,,+XY\n", "+XY,,,,,,,,\n+,,,0.\n"
     text = DECK.replace("PBAR,1,1,2.,3.,4.,,.5\n", head) + tail
     assert vehicle_of(text) == vehicle_of(DECK)
+
+
+def test_a_line_that_follows_half_a_card_does_not_fill_its_gap(refusal):
+    half = columns("PBAR", "1", "1", "2.", "3.", width=16, star="*") + "+,9.\n"
+    message = refusal(DECK.replace("PBAR,1,1,2.,3.,4.,,.5\n", half), plane="xz")
+    assert "CBAR 1: its bending stiffness in the plane xz must be positive" in message
 
 
 def test_included_files_are_read_in_their_place(vehicle_of, tmp_path):
@@ -375,6 +382,13 @@ def test_what_bulk_data_cannot_say_is_kept(vehicle_of):
     again = vehicle_of(nastran_text(v))
     assert (again.title, again.units, again.sensors, again.joints) == (v.title, v.units, v.sensors, v.joints)
     assert [stage.name for stage in again.stages] == ["upper", "lower"]
+
+
+@pytest.mark.parametrize("forward", [0.0, 1e-9])
+def test_a_lump_at_a_joint_is_written_on_its_face(vehicle_of, forward):
+    v = catalog.tsto(0.6, 5000.0, 7000.0)
+    v = v.model_copy(update={"point_masses": (PointMass(station=0.6 - forward, mass=1.0),)})
+    assert vehicle_of(nastran_text(v)).point_masses[0].station == pytest.approx(0.6 - forward, abs=1e-12)
 
 
 def test_names_that_no_comment_can_carry_are_kept_too(vehicle_of):
