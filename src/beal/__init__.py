@@ -12,6 +12,7 @@ if _typing.TYPE_CHECKING:
     from beal.discretisation.build import discretise
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
+    from beal.interop.files import load
     from beal.motion import ModeShape, Release, Response, Samples, growth_rate, response
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
@@ -20,7 +21,7 @@ if _typing.TYPE_CHECKING:
     from beal.study.map import stability_map
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
-    from beal.vehicle.file import dumps, load, loads
+    from beal.vehicle.file import dumps, loads
     from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
     from beal.vehicle.vehicle import Vehicle
 
@@ -54,7 +55,7 @@ _HOMES = {
     "critical_thrust": "beal.stability.critical",
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
-    "load": "beal.vehicle.file",
+    "load": "beal.interop.files",
     "loads": "beal.vehicle.file",
     "plot": "beal.plot",
     "refined_map": "beal.study.refined",

@@ -25,8 +25,8 @@ def critical(
     as_json: AsJson = False,
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
+    from beal.interop.files import load
     from beal.stability.critical import critical_events, critical_thrust
-    from beal.vehicle.file import load
 
     vehicle = load(model)
     found = critical_thrust(

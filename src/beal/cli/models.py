@@ -35,19 +35,23 @@ EXAMPLES = ("beck", "beal", "pflueger", "tsto")
 
 def check(model: Model, as_json: AsJson = False) -> None:
     """Show the resolved model, or every error in it."""
-    from beal.vehicle.file import load
+    from beal.interop.files import imported
     from beal.vehicle.summary import summary
 
     try:
-        resolved = summary(load(model))
+        found = imported(model)
+        resolved = summary(found.vehicle)
     except ModelError as error:
         if as_json:
             emit({"errors": [{"path": path, "message": message} for path, message in error.problems]})
         raise
     if as_json:
-        emit(resolved)
-    else:
-        _show(resolved)
+        emit({**resolved, "notes": found.notes, "ignored": found.ignored})
+        return
+    _show(resolved)
+    for title, lines in (("how the file was read", found.notes), ("left out or simplified", found.ignored)):
+        if lines:
+            print(f"\n{title}", *(f"  {line}" for line in lines), sep="\n")
 
 
 def _show(resolved: dict[str, Any]) -> None:
