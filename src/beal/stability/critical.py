@@ -12,6 +12,7 @@ from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
+from beal.stability.damped import damped_events, highest_frequency, unstable_roots
 from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
@@ -20,7 +21,7 @@ from beal.stability.pencil import Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined, settled
 from beal.stability.ridge import Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
-from beal.stability.zero_roots import mechanism, rigid_body_root
+from beal.stability.zero_roots import FIRST, mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 STEPS = 36  # coarse intervals up to the default limit
@@ -123,7 +124,7 @@ def critical_thrust(
 
     Notes
     -----
-    Undamped. The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
+    The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
     higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported. Vehicles of a
     dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
     with many soft joints the lowest 32 modes are looked at.
@@ -146,7 +147,7 @@ def critical_thrust(
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
         tolerance = tolerance or TOLERANCE[basis]
-        if basis == "legendre" and is_large(vehicle):
+        if basis == "legendre" and is_large(vehicle) and not vehicle.damped:
             large = Reduction(vehicle, formulation)
             task = replace(task, watched=large.watched)
             return _solve(task, large.operators, method, lambda found: refined(found, large.points(found), tolerance))
@@ -181,7 +182,7 @@ def critical_events(
         large = None
         operators = vehicle
         if isinstance(operators, Vehicle):
-            if formulation not in RITZ and is_large(operators):
+            if formulation not in RITZ and is_large(operators) and not operators.damped:
                 large = Reduction(operators, formulation)
                 operators = large.operators
             else:
@@ -190,7 +191,10 @@ def critical_events(
         full = pencil(operators)
         watched = large.watched if large else task.watched
         small = reduced(full, watched + COMPLETE_SPARE)
-        found = events(small, task.limit, watched)
+        if full.C is None:
+            found = events(small, task.limit, watched)
+        else:
+            found = damped_events(small, _without_damping(operators, watched), task.limit, watched)
         if large:
             large.refine()
         polished = []
@@ -219,8 +223,12 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     full = pencil(operators)
     spare = SPARE if method == "fast" else COMPLETE_SPARE
     small = reduced(full, task.watched + spare)
-    drift = rigid_body_root(small, task.limit)
-    found = _first(task, small, method)
+    drift: str
+    if full.C is None:
+        drift = rigid_body_root(small, task.limit)
+        found = _first(task, small, method)
+    else:
+        drift, found = _first_damped(task, small, _without_damping(operators, task.watched))
     watched = min(task.watched, len(small.M) - small.rigid)
     rigid_body: Literal["neutral", "tumbling", "held"]
     floats = operators.rigid > 0 or operators.vehicle.free_free
@@ -261,12 +269,33 @@ def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
     if method == "fast":
         return Search(small, task.limit, task.steps, task.watched).first()
     own = rigid_body_root(small, task.limit) == "tumbling"  # a root that may come back and leave again
-    found = events(small, task.limit, task.watched)
+    return _first_of(events(small, task.limit, task.watched), own)
+
+
+def _first_damped(task: _Task, small: Pencil, undamped: Pencil) -> tuple[str, Instability | None]:
+    """Where the rigid-body motion goes under the first thrust, and the first instability of a damped pencil."""
+    if mechanism(undamped, task.limit):
+        return "", _first(task, undamped, "fast")
+    found = damped_events(small, undamped, task.limit, task.watched)
+    top = highest_frequency(undamped, task.watched)
+    slight = min([FIRST * task.limit, *(event.thrust / 2 for event in found)])
+    own = unstable_roots(small, slight, top) if small.rigid else 0
+    drift = "tumbling" if own else rigid_body_root(undamped, task.limit)
+    return drift, _first_of(found, own)
+
+
+def _first_of(found: list[Event], own: int) -> Instability | None:
+    """The first instability beside a rigid-body motion that has so many unstable roots of its own."""
     for event in found:
-        if event.unstable > max(event.before, own and event.kind == "divergence"):
+        if event.unstable > max(event.before, own if event.kind == "divergence" else 0):
             border = sum(abs(other.thrust - event.thrust) < BORDER * event.thrust for other in found) > 1
             return Instability(_start(event.thrust, event.W), event.kind, event.modes, border)
     return None
+
+
+def _without_damping(operators: Operators, watched: int) -> Pencil:
+    """The reduced pencil of a damped vehicle that has lost its damping."""
+    return reduced(pencil(replace(operators, C=None)), watched + COMPLETE_SPARE)
 
 
 def _start(thrust: float, W: float) -> CriticalPoint:

@@ -1,0 +1,192 @@
+"""Every critical thrust of a damped reduced pencil at once, without a step in thrust that could pass one over.
+
+A root i omega and its conjugate add up to zero. With s X -> A X + X A^T, the Lyapunov operator of the equations in
+first-order form, A = [0 1; -M^-1 K, -M^-1 C], has the eigenvalues s_i + s_j, and on antisymmetric X each pair i < j
+once (the bialternate product; Guckenheimer, Myers & Sturmfels 1997). Eliminated blockwise and freed of the inverses
+of M, it is singular where
+
+    M X K^T - K X M + M Y C^T + C Y M = 0        X antisymmetric
+    C X K^T + K X C^T + K Y M - M Y K^T = 0      Y symmetric
+
+has a solution: n^2 equations that are linear in K and so in the thrust. All thrusts with a root on the imaginary axis
+are the eigenvalues of one matrix. For a damping e C with e -> 0, X = e X' gives the same equations with e^2 before
+the first two terms of the second line: without these two they are the limit itself.
+"""
+
+import numpy as np
+
+from beal.stability.complete import NEXT, SAME, Event, nearly_real, zero_roots
+from beal.stability.damped_roots import damped_roots
+from beal.stability.double_root import divergence
+from beal.stability.imaginary_root import imaginary_root
+from beal.stability.pencil import Array, ComplexArray, Pencil
+from beal.stability.ridge import Kind
+from beal.stability.zero_roots import rigid_body_root
+
+Crossing = tuple[float, float, Kind]  # thrust, W = omega^2, kind
+FLUTTER: Kind = "flutter"
+DIVERGENCE: Kind = "divergence"
+REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
+SAMPLES = 24  # thrusts at which the unstable roots are counted to see that no crossing is missing
+BISECTIONS = 40
+NEUTRAL, GROWING = 1e-5, 1e-9  # |s| of a zero root, beside the square root of the shift; Re s of a growing one, beside |s|
+CLOSEST = 3  # roots beside the axis that are tried at a thrust
+
+
+def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) -> list[Event]:
+    """All critical thrusts of a damped reduced pencil from 0 to a limit, in order.
+
+    Parameters
+    ----------
+    pencil : Pencil
+        Reduced, with diagonal M; the cost grows with the sixth power of its size.
+    undamped : Pencil
+        Reduced, of the same vehicle without its damping: numbers the modes.
+    limit : float
+    watched : int
+        Number of elastic modes whose frequencies are looked at.
+
+    Returns
+    -------
+    list of Event
+        ``modes`` is twice the number of the undamped vehicle's mode that is closest at this thrust.
+    """
+    top = highest_frequency(undamped, watched)
+    static = with_rates(pencil)
+    found: list[Crossing] = []
+    for thrust in crossings(pencil, limit):
+        found += _flutter(pencil, thrust, top)
+    for thrust in zero_roots(static, limit):
+        found += _divergence(static, thrust)
+    for thrust in _missed(pencil, [thrust for thrust, _, _ in found], limit, top):
+        found += _flutter(pencil, thrust, top) + _divergence(static, thrust)
+    found = distinct(found, limit)
+    between = np.array([0.0, *(point[0] for point in found), limit])
+    counts = [unstable_roots(pencil, P, top) for P in (between[1:] + between[:-1]) / 2]
+    return [
+        Event(thrust, W, kind, (closest_mode(undamped, thrust, W, limit),) * 2, after, before)
+        for (thrust, W, kind), before, after in zip(found, counts, counts[1:], strict=False)
+        if before != after
+    ]
+
+
+def distinct(found: list[Crossing], limit: float) -> list[Crossing]:
+    """Crossings up to a limit in order of thrust, each once."""
+    kept: list[Crossing] = []
+    for crossing in sorted(found):
+        again = kept and crossing[0] - kept[-1][0] < SAME * limit and crossing[2] == kept[-1][2]
+        if 0 < crossing[0] <= limit and not again:
+            kept.append(crossing)
+    return kept
+
+
+def _flutter(pencil: Pencil, thrust: float, top: float) -> list[Crossing]:
+    """Crossings of complex roots next to an approximate thrust."""
+    s = damped_roots(pencil, thrust)
+    s = s[(s.imag > 0) & (np.abs(s) < top)]
+    points = []
+    for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:CLOSEST]]:
+        point = imaginary_root(pencil, thrust, root.imag**2)
+        if point.converged and abs(point.thrust - thrust) < NEXT * thrust and point.W < top**2:
+            points.append((point.thrust, point.W, FLUTTER))
+    return points
+
+
+def _divergence(static: Pencil, thrust: float) -> list[Crossing]:
+    """Crossings of real roots next to an approximate thrust."""
+    point = divergence(static, thrust)
+    return [(point.thrust, 0.0, DIVERGENCE)] if point.converged and abs(point.thrust - thrust) < NEXT * thrust else []
+
+
+def _missed(pencil: Pencil, known: list[float], limit: float, top: float) -> list[float]:
+    """Thrusts at which the number of unstable roots changes away from the known ones."""
+    even = np.linspace(0.0, limit, SAMPLES + 1)[1:]
+    counts = [unstable_roots(pencil, P, top) for P in even]
+    missed = []
+    for low, high, before, after in zip(even, even[1:], counts, counts[1:], strict=False):
+        if before == after or any(low < P <= high for P in known):
+            continue
+        for _ in range(BISECTIONS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if unstable_roots(pencil, middle, top) == before else (low, middle)
+        missed.append((low + high) / 2)
+    return missed
+
+
+def crossings(pencil: Pencil, limit: float, vanishing: bool = False) -> Array:
+    """Real parts of all nearly real thrusts in (0, limit] with a root on the imaginary axis.
+
+    Parameters
+    ----------
+    pencil : Pencil
+        Damped, reduced.
+    limit : float
+    vanishing : bool
+        Whether the damping goes to zero in the ratios of C.
+
+    Returns
+    -------
+    ndarray
+    """
+    n, mass = len(pencil.M), np.diag(pencil.M)
+    i, j = np.tril_indices(n, -1)  # of X
+    k, m = np.tril_indices(n)  # of Y
+    rows, columns = np.concatenate((k, i)) * n + np.concatenate((m, j)), (i * n + j, k * n + m)
+    mirrored = (j * n + i, m * n + k)
+
+    def operator(K: Array, C: Array | None) -> Array:
+        """Both lines, the first for the entries of a symmetric and the second for those of an antisymmetric matrix."""
+        turned = np.kron(pencil.M, K) - np.kron(K, pencil.M)
+        full = np.zeros((2, n * n, 2, n * n))
+        full[0, :, 0], full[1, :, 1] = turned, -turned
+        if C is not None:
+            full[0, :, 1] = np.kron(pencil.M, C) + np.kron(C, pencil.M)
+        if not vanishing:
+            full[1, :, 0] = np.kron(pencil.C, K) + np.kron(K, pencil.C)
+        lines = np.concatenate((full[0][rows[: len(k)]], full[1][rows[len(k) :]]))
+        of_X = lines[:, 0][:, columns[0]] - lines[:, 0][:, mirrored[0]]
+        of_Y = lines[:, 1][:, columns[1]] + lines[:, 1][:, mirrored[1]]
+        return np.hstack((of_X, of_Y))
+
+    rows_scale = 1 / np.sqrt(np.concatenate((mass[k] * mass[m], mass[i] * mass[j])))
+    columns_scale = np.concatenate((mass[i] * mass[j], mass[k] * mass[m])) ** -0.25
+    scale = np.outer(rows_scale, columns_scale)
+    reference = REFERENCE * limit
+    at = operator(pencil.stiffness(reference), pencil.C) * scale
+    change = operator(limit * pencil.K1, None) * scale
+    inverse = np.linalg.eigvals(np.linalg.solve(at, -change)).astype(complex)
+    return nearly_real(REFERENCE + 1 / inverse[np.abs(inverse) > SAME], limit)
+
+
+def unstable_roots(pencil: Pencil, thrust: float, top: float) -> int:
+    """Number of roots below a frequency that grow."""
+    s = damped_roots(pencil, thrust)
+    size = np.abs(s)
+    seen = (size < top) & (size > NEUTRAL * np.sqrt(pencil.shift))
+    return int(np.sum(seen & (s.real > GROWING * size)))
+
+
+def highest_frequency(undamped: Pencil, watched: int) -> float:
+    """Frequency between the last of the watched modes and the first of the others, of the unloaded vehicle."""
+    W = undamped.roots(0.0).real[undamped.rigid :]
+    last = min(watched, len(W) - 1)
+    return float(np.abs(W[last - 1] * W[last]) ** 0.25) if last < len(W) and last else float(np.sqrt(2 * W[-1]))
+
+
+def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float) -> int:
+    """Number of the elastic mode closest to a W = omega^2 at a thrust, counted from 1; 0 is a rigid-body root."""
+    roots: ComplexArray = undamped.roots(thrust)
+    rigid = undamped.rigid
+    if rigid_body_root(undamped, limit) == "neutral":
+        roots, rigid = np.delete(roots, np.abs(roots).argmin()), 0
+    distance = np.abs(roots - W)
+    return int(np.argmax(distance <= distance.min() * (1 + 1e-6))) + 1 - rigid
+
+
+def with_rates(pencil: Pencil) -> Pencil:
+    """The static problem, with the rates of motions that meet no stiffness in place of the motions."""
+    K0 = pencil.K0.copy()
+    for motion in range(pencil.rigid):
+        if pencil.C is not None and not pencil.K1[:, motion].any():
+            K0[:, motion] = pencil.C[:, motion]
+    return Pencil(K0, pencil.K1, pencil.M, pencil.rigid, pencil.shift)
