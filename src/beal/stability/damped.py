@@ -16,7 +16,7 @@ the first two terms of the second line: without these two they are the limit its
 import numpy as np
 
 from beal.stability.complete import NEXT, SAME, Event, nearly_real, zero_roots
-from beal.stability.damped_roots import damped_roots
+from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
 from beal.stability.imaginary_root import imaginary_root
 from beal.stability.pencil import Array, ComplexArray, Pencil
@@ -29,7 +29,7 @@ DIVERGENCE: Kind = "divergence"
 REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
 SAMPLES = 24  # thrusts at which the unstable roots are counted to see that no crossing is missing
 BISECTIONS = 40
-NEUTRAL, GROWING = 1e-5, 1e-9  # |s| of a zero root, beside the square root of the shift; Re s of a growing one, beside |s|
+GROWING = 1e-9  # Re s, beside |s|, from which a root counts as growing
 CLOSEST = 3  # roots beside the axis that are tried at a thrust
 
 
@@ -53,6 +53,7 @@ def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) 
     """
     top = highest_frequency(undamped, watched)
     static = with_rates(pencil)
+    drifts = pencil.rigid > undamped.rigid
     found: list[Crossing] = []
     for thrust in crossings(pencil, limit):
         found += _flutter(pencil, thrust, top)
@@ -64,7 +65,7 @@ def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) 
     between = np.array([0.0, *(point[0] for point in found), limit])
     counts = [unstable_roots(pencil, P, top) for P in (between[1:] + between[:-1]) / 2]
     return [
-        Event(thrust, W, kind, (closest_mode(undamped, thrust, W, limit),) * 2, after, before)
+        Event(thrust, W, kind, (closest_mode(undamped, thrust, W, limit, drifts),) * 2, after, before)
         for (thrust, W, kind), before, after in zip(found, counts, counts[1:], strict=False)
         if before != after
     ]
@@ -173,12 +174,17 @@ def highest_frequency(undamped: Pencil, watched: int) -> float:
     return float(np.abs(W[last - 1] * W[last]) ** 0.25) if last < len(W) and last else float(np.sqrt(2 * W[-1]))
 
 
-def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float) -> int:
-    """Number of the elastic mode closest to a W = omega^2 at a thrust, counted from 1; 0 is a rigid-body root."""
+def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float, drifts: bool = False) -> int:
+    """Number of the elastic mode closest to a W = omega^2 at a thrust, counted from 1; 0 is a rigid-body root.
+
+    ``drifts`` says that rigid-body motions are damped which are not in the undamped pencil.
+    """
     roots: ComplexArray = undamped.roots(thrust)
     rigid = undamped.rigid
     if rigid_body_root(undamped, limit) == "neutral":
         roots, rigid = np.delete(roots, np.abs(roots).argmin()), 0
+    if drifts and not rigid:
+        roots, rigid = np.append(0.0, roots), 1
     distance = np.abs(roots - W)
     return int(np.argmax(distance <= distance.min() * (1 + 1e-6))) + 1 - rigid
 

@@ -143,6 +143,6 @@ def _newton(equations: Callable[[float, float], Equations], thrust: float, W: fl
         converged = bool(np.all(np.abs(step) < 1e-8 * np.abs(here)))
     uncertainty = np.inf
     if converged and here[1] > 0:
-        uncertainty = float(np.abs(np.linalg.inv(jacobian)[0]) @ rounding) + 4 * EPS * abs(here[0])
+        uncertainty = float(np.abs(np.linalg.inv(jacobian)[0]) @ rounding + 4 * EPS * abs(here[0]))
     nothing = np.empty(0)
     return CriticalPoint(float(here[0]), float(here[1]), uncertainty < np.inf, uncertainty, nothing, nothing)
