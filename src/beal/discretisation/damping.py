@@ -48,7 +48,9 @@ def damping_matrix(operators: Operators) -> Array:
         there = np.flatnonzero(dashpots)
         damping = damping + _products(basis.jumps([fronts[j] for j in there], derivative), dashpots[there])
     damping[:rigid] = damping[:, :rigid] = 0.0  # rounding: rigid-body motions strain nothing
-    losses = np.outer([stage.external_damping * segment.length / 2 for stage, segment in zip(stages, chain, strict=True)], weight)
+    losses = np.outer(
+        [stage.external_damping * segment.length / 2 for stage, segment in zip(stages, chain, strict=True)], weight
+    )
     damping = damping + _products(samples.deflection, losses.ravel())
     damping[rigid:, rigid:] += _modal(vehicle, operators.M[rigid:, rigid:], operators.K0[rigid:, rigid:])
     return np.asarray((damping + damping.T) / 2)

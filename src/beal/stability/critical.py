@@ -27,6 +27,7 @@ from beal.vehicle.vehicle import Vehicle
 STEPS = 36  # coarse intervals up to the default limit
 WATCHED, SPARE = 8, 3  # elastic modes watched, and kept beyond them in the reduced problem
 COMPLETE_SPARE = 2
+MOST_DAMPED = 14  # elastic modes of a damped vehicle watched: the time grows with the sixth power
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,8 @@ class CriticalThrust:
     kind : {"flutter", "divergence", "stable"}
     modes : tuple of int or None
         The elastic modes that meet, counted from 1 in order of frequency at that thrust; a diverging mode twice; 0
-        stands for a rigid-body motion.
+        stands for a rigid-body motion. Damped flutter is that of one mode, named twice: the mode of the same vehicle
+        without damping that is closest in frequency at that thrust.
     angular_frequency : float or None
         At the critical thrust, in rad/s.
     error_estimate : float or None
@@ -109,7 +111,8 @@ def critical_thrust(
     tolerance : float, optional
         Relative error of the critical thrust to reach; by default 1e-10 for polynomials and 1e-6 for elements.
     method : {"fast", "complete"}
-        The ridge scan, or all critical thrusts of the reduced problem from one eigenvalue problem.
+        The ridge scan, or all critical thrusts of the reduced problem from one eigenvalue problem. Of a damped vehicle
+        always the latter.
 
     Returns
     -------
@@ -127,7 +130,7 @@ def critical_thrust(
     The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
     higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported. Vehicles of a
     dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
-    with many soft joints the lowest 32 modes are looked at.
+    with many soft joints the lowest 32 modes are looked at. Damped vehicles go by dense matrices whatever their size.
 
     Examples
     --------
@@ -213,7 +216,10 @@ def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation) 
     if limit > 20 * natural:
         raise ModelError(f"max_thrust: at most {20 * natural:.3g} is resolved for this vehicle, found {limit:.3g}")
     springs = sum(math.isfinite(k) for j in vehicle.joints for k in (j.rotational_stiffness, j.shear_stiffness))
-    return _Task(limit, math.ceil(STEPS * limit / natural) + 1, WATCHED + springs, formulation)
+    watched = WATCHED + springs
+    if vehicle.damped:
+        watched = min(watched, MOST_DAMPED)
+    return _Task(limit, math.ceil(STEPS * limit / natural) + 1, watched, formulation)
 
 
 Refine = Callable[[Instability], tuple[CriticalPoint, float]]

@@ -13,16 +13,20 @@ are the eigenvalues of one matrix. For a damping e C with e -> 0, X = e X' gives
 the first two terms of the second line: without these two they are the limit itself.
 """
 
+import math
+
 import numpy as np
+from numpy.typing import NDArray
 
 from beal.stability.complete import NEXT, SAME, Event, nearly_real, zero_roots
 from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
-from beal.stability.imaginary_root import imaginary_root
+from beal.stability.imaginary_root import damping_of, imaginary_root
 from beal.stability.pencil import Array, ComplexArray, Pencil
 from beal.stability.ridge import Kind
 from beal.stability.zero_roots import rigid_body_root
 
+Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 Crossing = tuple[float, float, Kind]  # thrust, W = omega^2, kind
 FLUTTER: Kind = "flutter"
 DIVERGENCE: Kind = "divergence"
@@ -88,7 +92,8 @@ def _flutter(pencil: Pencil, thrust: float, top: float) -> list[Crossing]:
     points = []
     for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:CLOSEST]]:
         point = imaginary_root(pencil, thrust, root.imag**2)
-        if point.converged and abs(point.thrust - thrust) < NEXT * thrust and point.W < top**2:
+        near = abs(point.thrust - thrust) < NEXT * thrust
+        if point.converged and near and math.sqrt(point.W) < top:
             points.append((point.thrust, point.W, FLUTTER))
     return points
 
@@ -129,32 +134,30 @@ def crossings(pencil: Pencil, limit: float, vanishing: bool = False) -> Array:
     -------
     ndarray
     """
-    n, mass = len(pencil.M), np.diag(pencil.M)
-    i, j = np.tril_indices(n, -1)  # of X
-    k, m = np.tril_indices(n)  # of Y
-    rows, columns = np.concatenate((k, i)) * n + np.concatenate((m, j)), (i * n + j, k * n + m)
-    mirrored = (j * n + i, m * n + k)
+    M, C = pencil.M, damping_of(pencil)
+    below, lower = np.tril_indices(len(M), -1), np.tril_indices(len(M))  # entries of X, of Y
 
-    def operator(K: Array, C: Array | None) -> Array:
-        """Both lines, the first for the entries of a symmetric and the second for those of an antisymmetric matrix."""
-        turned = np.kron(pencil.M, K) - np.kron(K, pencil.M)
-        full = np.zeros((2, n * n, 2, n * n))
-        full[0, :, 0], full[1, :, 1] = turned, -turned
-        if C is not None:
-            full[0, :, 1] = np.kron(pencil.M, C) + np.kron(C, pencil.M)
-        if not vanishing:
-            full[1, :, 0] = np.kron(pencil.C, K) + np.kron(K, pencil.C)
-        lines = np.concatenate((full[0][rows[: len(k)]], full[1][rows[len(k) :]]))
-        of_X = lines[:, 0][:, columns[0]] - lines[:, 0][:, mirrored[0]]
-        of_Y = lines[:, 1][:, columns[1]] + lines[:, 1][:, mirrored[1]]
-        return np.hstack((of_X, of_Y))
+    def block(rows: Pairs, columns: Pairs, sign: float, *products: tuple[Array, Array]) -> Array:
+        """Matrix of sum A Z B^T, for the entries of (anti)symmetric results and unknowns Z = sign * Z^T."""
+        kron = sum(np.kron(A, B) for A, B in products)
+        shaped = np.asarray(kron).reshape(4 * (len(M),))[rows]
+        return np.asarray(shaped[:, columns[0], columns[1]] + sign * shaped[:, columns[1], columns[0]])
 
-    rows_scale = 1 / np.sqrt(np.concatenate((mass[k] * mass[m], mass[i] * mass[j])))
-    columns_scale = np.concatenate((mass[i] * mass[j], mass[k] * mass[m])) ** -0.25
-    scale = np.outer(rows_scale, columns_scale)
-    reference = REFERENCE * limit
-    at = operator(pencil.stiffness(reference), pencil.C) * scale
-    change = operator(limit * pencil.K1, None) * scale
+    def operator(K: Array, *damping: tuple[Array, Array]) -> Array:
+        """Both lines on both unknowns; the thrust changes K alone."""
+        fed = np.zeros((len(below[0]),) * 2) if vanishing else block(below, below, -1, (C, K), (K, C))
+        return np.block(
+            [
+                [block(lower, below, -1, (M, K), (-K, M)), block(lower, lower, 1, *damping)],
+                [fed, block(below, lower, 1, (K, M), (-M, K))],
+            ]
+        )
+
+    mass = np.diag(M)
+    of_X, of_Y = mass[below[0]] * mass[below[1]], mass[lower[0]] * mass[lower[1]]
+    scale = np.outer(np.concatenate((of_Y, of_X)) ** -0.5, np.concatenate((of_X, of_Y)) ** -0.25)
+    at = scale * operator(pencil.stiffness(REFERENCE * limit), (M, C), (C, M))
+    change = scale * operator(limit * pencil.K1, (0 * M, C))
     inverse = np.linalg.eigvals(np.linalg.solve(at, -change)).astype(complex)
     return nearly_real(REFERENCE + 1 / inverse[np.abs(inverse) > SAME], limit)
 

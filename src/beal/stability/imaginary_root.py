@@ -12,7 +12,7 @@ g = 0 and psi^T C x = 0 of the undamped matrix then are the limit.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import scipy.linalg
@@ -40,7 +40,7 @@ def imaginary_root(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
     CriticalPoint
         Without eigenvectors; ``converged`` is false where Newton's method did not settle.
     """
-    C = _damping(pencil)
+    C = damping_of(pencil)
 
     def equations(thrust: float, omega: float) -> Equations:
         matrix = pencil.stiffness(thrust) - omega**2 * pencil.M + 1j * omega * C
@@ -77,7 +77,7 @@ def vanishing_root(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
     CriticalPoint
         Without eigenvectors.
     """
-    C = _damping(pencil)
+    C = damping_of(pencil)
 
     def equations(thrust: float, W: float) -> Equations:
         solve = _factorised(pencil.stiffness(thrust) - W * pencil.M, b, c)
@@ -98,7 +98,8 @@ def vanishing_root(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
     return _newton(equations, thrust, W)
 
 
-def _damping(pencil: Pencil) -> Array:
+def damping_of(pencil: Pencil) -> Array:
+    """C of a pencil that has one."""
     if pencil.C is None:
         raise ModelError("damping: a damped vehicle was expected, found one without damping")
     return pencil.C
@@ -109,11 +110,11 @@ def _turned_real(vector: ComplexArray) -> Array:
     return np.asarray((vector * np.exp(-0.5j * np.angle(np.sum(vector**2)))).real)
 
 
-def _factorised(matrix: NDArray[Any], b: Array, c: Array) -> Callable[[NDArray[Any], int], NDArray[Any]]:
+def _factorised(matrix: NDArray[Any], b: Array, c: Array) -> Callable[[NDArray[Any], Literal[0, 1]], NDArray[Any]]:
     """Solutions with the bordered matrix (0) or its transpose (1)."""
     bordered = np.block([[matrix, b[:, None]], [c[None, :], np.zeros((1, 1))]])
     factor = scipy.linalg.lu_factor(bordered, check_finite=False)
-    return lambda right, transposed: scipy.linalg.lu_solve(factor, right, trans=transposed, check_finite=False)
+    return lambda right, transposed: scipy.linalg.lu_solve(factor, right, trans=transposed)
 
 
 def _size(terms: Sequence[tuple[float, Array]], left: NDArray[Any], right: NDArray[Any]) -> float:

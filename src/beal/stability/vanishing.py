@@ -1,8 +1,8 @@
 """The critical thrust of a vehicle as its damping vanishes, which is not that of the undamped vehicle.
 
-A damping e C with e -> 0 moves the simple root W of the undamped vehicle by Re s = - e f / 2, f = y^T C x / y^T M x, with
-the left and right vectors y, x (Bolotin 1963; Kirillov 2013). Where circulatory forces act f may be negative: the limit
-is the first thrust at which that happens to any mode, or else the undamped critical thrust.
+A damping e C with e -> 0 moves the simple root W of the undamped vehicle by Re s = - e f / 2, f = y^T C x / y^T M x,
+with the left and right vectors y, x (Bolotin 1963; Kirillov 2013). Where circulatory forces act f may be negative:
+the limit is the first thrust at which that happens to any mode, or else the undamped critical thrust.
 """
 
 from dataclasses import replace
@@ -17,7 +17,7 @@ from beal.stability.complete import NEXT
 from beal.stability.critical import COMPLETE_SPARE, CriticalThrust, critical_thrust
 from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct
 from beal.stability.double_root import CriticalPoint
-from beal.stability.imaginary_root import vanishing_root
+from beal.stability.imaginary_root import damping_of, vanishing_root
 from beal.stability.pencil import Array, Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined
 from beal.stability.ridge import Instability, Kind
@@ -137,9 +137,10 @@ def _drained(small: Pencil, thrust: float, watched: int) -> tuple[Array, Array]:
     root = np.sqrt(np.diag(small.M))
     shifted = small.stiffness(thrust) + small.shift * small.M
     inverse, left, right = scipy.linalg.eig(root[:, None] * np.linalg.solve(shifted, np.diag(root)), left=True)
-    W = 1 / inverse.real - small.shift
-    scaled = small.C / np.outer(root, root)
+    W = np.asarray(1 / inverse.real - small.shift)
+    scaled = damping_of(small) / np.outer(root, root)
     f = np.einsum("ij,ik,kj->j", left.conj(), scaled, right) / np.einsum("ij,ij->j", left.conj(), right)
-    elastic = np.flatnonzero(W > (RIGID * small.shift if small.rigid else 0.0))
+    floor = RIGID * small.shift if small.rigid else 0.0
+    elastic = np.flatnonzero(floor < W)
     lowest = elastic[np.argsort(W[elastic])[:watched]]
     return W[lowest], f.real[lowest]
