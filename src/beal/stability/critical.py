@@ -12,13 +12,13 @@ from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
-from beal.stability.damped import damped_events, highest_frequency, unstable_roots
+from beal.stability.damped import closest_mode, damped_events, growing_root, highest_frequency, unstable_roots
 from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
-from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined, settled
+from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined, settled
 from beal.stability.ridge import Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
 from beal.stability.zero_roots import FIRST, mechanism, rigid_body_root
@@ -109,7 +109,8 @@ def critical_thrust(
     modes : int, optional
         Number of modes of the Ritz formulations; refused for the others.
     tolerance : float, optional
-        Relative error of the critical thrust to reach; by default 1e-10 for polynomials and 1e-6 for elements.
+        Relative error of the critical thrust to reach; by default 1e-10 for polynomials (1e-8 with
+        damping ratios) and 1e-6 for elements.
     method : {"fast", "complete"}
         The ridge scan, or all critical thrusts of the reduced problem from one eigenvalue problem. Of a damped vehicle
         always the latter.
@@ -149,7 +150,7 @@ def critical_thrust(
         if formulation in RITZ:
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
-        tolerance = tolerance or TOLERANCE[basis]
+        tolerance = tolerance or default_tolerance(vehicle, basis)
         if basis == "legendre" and is_large(vehicle) and not vehicle.damped:
             large = Reduction(vehicle, formulation)
             task = replace(task, watched=large.watched)
@@ -284,10 +285,14 @@ def _first_damped(task: _Task, small: Pencil, undamped: Pencil) -> tuple[str, In
         return "", _first(task, undamped, "fast")
     found = damped_events(small, undamped, task.limit, task.watched)
     top = highest_frequency(undamped, task.watched)
-    slight = min([FIRST * task.limit, *(event.thrust / 2 for event in found)])
-    own = unstable_roots(small, slight, top) if small.rigid else 0
-    drift = "tumbling" if own else rigid_body_root(undamped, task.limit)
-    return drift, _first_of(found, own)
+    first = found[0].thrust if found else task.limit
+    drift: str = rigid_body_root(undamped, task.limit)
+    own = unstable_roots(small, min(FIRST * task.limit, first / 2), top) if small.rigid else 0
+    if own:
+        return "tumbling", _first_of(found, own)
+    if W := growing_root(small, first / 2, top):  # from the first thrust on
+        return drift, Instability(_start(0.0, W), "flutter", (closest_mode(undamped, first / 2, W, task.limit),) * 2)
+    return drift, _first_of(found, 0)
 
 
 def _first_of(found: list[Event], own: int) -> Instability | None:

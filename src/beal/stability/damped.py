@@ -18,6 +18,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from beal.errors import ConvergenceError
 from beal.stability.complete import NEXT, SAME, Event, nearly_real, zero_roots
 from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
@@ -31,6 +32,7 @@ Crossing = tuple[float, float, Kind]  # thrust, W = omega^2, kind
 FLUTTER: Kind = "flutter"
 DIVERGENCE: Kind = "divergence"
 REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
+ON_AXIS = 1e-4  # Re s, beside |s|
 SAMPLES = 24  # thrusts at which the unstable roots are counted to see that no crossing is missing
 BISECTIONS = 40
 GROWING = 1e-9  # Re s, beside |s|, from which a root counts as growing
@@ -64,7 +66,10 @@ def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) 
     for thrust in zero_roots(static, limit):
         found += _divergence(static, thrust)
     for thrust in _missed(pencil, [thrust for thrust, _, _ in found], limit, top):
-        found += _flutter(pencil, thrust, top) + _divergence(static, thrust)
+        resolved = _flutter(pencil, thrust, top, closest=len(pencil.M)) + _divergence(static, thrust)
+        if not resolved and _on_axis(pencil, thrust, top):
+            raise ConvergenceError(f"critical thrust near {thrust:.6g}: an instability there cannot be resolved")
+        found += resolved
     found = distinct(found, limit)
     between = np.array([0.0, *(point[0] for point in found), limit])
     counts = [unstable_roots(pencil, P, top) for P in (between[1:] + between[:-1]) / 2]
@@ -85,12 +90,12 @@ def distinct(found: list[Crossing], limit: float) -> list[Crossing]:
     return kept
 
 
-def _flutter(pencil: Pencil, thrust: float, top: float) -> list[Crossing]:
+def _flutter(pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST) -> list[Crossing]:
     """Crossings of complex roots next to an approximate thrust."""
     s = damped_roots(pencil, thrust)
     s = s[(s.imag > 0) & (np.abs(s) < top)]
     points = []
-    for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:CLOSEST]]:
+    for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:closest]]:
         point = imaginary_root(pencil, thrust, root.imag**2)
         near = abs(point.thrust - thrust) < NEXT * thrust
         if point.converged and near and math.sqrt(point.W) < top:
@@ -102,6 +107,12 @@ def _divergence(static: Pencil, thrust: float) -> list[Crossing]:
     """Crossings of real roots next to an approximate thrust."""
     point = divergence(static, thrust)
     return [(point.thrust, 0.0, DIVERGENCE)] if point.converged and abs(point.thrust - thrust) < NEXT * thrust else []
+
+
+def _on_axis(pencil: Pencil, thrust: float, top: float) -> bool:
+    """Whether a root is all but on the imaginary axis."""
+    s = damped_roots(pencil, thrust)
+    return bool(np.any(np.abs(s.real[np.abs(s) < top]) < ON_AXIS * np.abs(s[np.abs(s) < top])))
 
 
 def _missed(pencil: Pencil, known: list[float], limit: float, top: float) -> list[float]:
@@ -164,10 +175,21 @@ def crossings(pencil: Pencil, limit: float, vanishing: bool = False) -> Array:
 
 def unstable_roots(pencil: Pencil, thrust: float, top: float) -> int:
     """Number of roots below a frequency that grow."""
+    return len(_growing(pencil, thrust, top))
+
+
+def growing_root(pencil: Pencil, thrust: float, top: float) -> float:
+    """W = omega^2 of the complex root below a frequency that grows fastest; 0 where none does."""
+    s = _growing(pencil, thrust, top)
+    s = s[s.imag != 0]
+    return float(s.imag[s.real.argmax()] ** 2) if len(s) else 0.0
+
+
+def _growing(pencil: Pencil, thrust: float, top: float) -> ComplexArray:
     s = damped_roots(pencil, thrust)
     size = np.abs(s)
     seen = (size < top) & (size > NEUTRAL * np.sqrt(pencil.shift))
-    return int(np.sum(seen & (s.real > GROWING * size)))
+    return np.asarray(s[seen & (s.real > GROWING * size)])
 
 
 def highest_frequency(undamped: Pencil, watched: int) -> float:

@@ -107,6 +107,8 @@ def reduced(full: Pencil, modes: int = MODES) -> Pencil:
     second = [scipy.linalg.cho_solve(factor, K1 @ w[:, :TWICE_CORRECTED]) for K1, w in zip(sides, first, strict=True)]
     span = np.hstack((vectors[:, :modes], *first, *second))
     upper = scipy.linalg.cholesky(static)
-    left, singular, _ = np.linalg.svd(upper @ (span / np.linalg.norm(upper @ span, axis=0)), full_matrices=False)
+    span = upper @ span
+    size = np.linalg.norm(span, axis=0)
+    left, singular, _ = np.linalg.svd(span[:, size > 0] / size[size > 0], full_matrices=False)
     independent = left[:, singular > 1e-8 * singular[0]]
     return full.projected(scipy.linalg.solve_triangular(upper, independent))

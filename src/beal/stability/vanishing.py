@@ -19,7 +19,7 @@ from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_m
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
 from beal.stability.pencil import Array, Pencil, pencil, reduced
-from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined
+from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined
 from beal.stability.ridge import Instability, Kind
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
@@ -96,7 +96,7 @@ def vanishing_damping_limit(
         nothing = np.empty(0)
         guess = Instability(CriticalPoint(thrust, W, True, 0.0, nothing, nothing), FLUTTER, (mode, mode))
         steps = partial(ladder, vehicle, formulation, "legendre", polish=_polish)
-        point, error = refined(guess, steps(guess), tolerance or TOLERANCE["legendre"])
+        point, error = refined(guess, steps(guess), tolerance or default_tolerance(vehicle, "legendre"))
     first = replace(
         elastic,
         critical_thrust=point.thrust,
