@@ -13,8 +13,6 @@ are the eigenvalues of one matrix. For a damping e C with e -> 0, X = e X' gives
 the first two terms of the second line: without these two they are the limit itself.
 """
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,9 +21,9 @@ from beal.stability.complete import NEXT, SAME, Event, nearly_real, zero_roots
 from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
 from beal.stability.imaginary_root import damping_of, imaginary_root
-from beal.stability.pencil import Array, ComplexArray, Pencil
+from beal.stability.pencil import UNCOUPLED, Array, ComplexArray, Pencil
 from beal.stability.ridge import Kind
-from beal.stability.zero_roots import rigid_body_root
+from beal.stability.zero_roots import ZERO, rigid_body_root
 
 Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 Crossing = tuple[float, float, Kind]  # thrust, W = omega^2, kind
@@ -98,7 +96,7 @@ def _flutter(pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST) 
     for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:closest]]:
         point = imaginary_root(pencil, thrust, root.imag**2)
         near = abs(point.thrust - thrust) < NEXT * thrust
-        if point.converged and near and math.sqrt(point.W) < top:
+        if point.converged and near and ZERO * pencil.shift < point.W < top**2:
             points.append((point.thrust, point.W, FLUTTER))
     return points
 
@@ -216,8 +214,9 @@ def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float, drifts
 
 def with_rates(pencil: Pencil) -> Pencil:
     """The static problem, with the rates of motions that meet no stiffness in place of the motions."""
-    K0 = pencil.K0.copy()
-    for motion in range(pencil.rigid):
-        if pencil.C is not None and not pencil.K1[:, motion].any():
-            K0[:, motion] = pencil.C[:, motion]
-    return Pencil(K0, pencil.K1, pencil.M, pencil.rigid, pencil.shift)
+    free = np.zeros((len(pencil.M), pencil.rigid))
+    if pencil.rigid:
+        _, size, motions = np.linalg.svd(pencil.K1[:, : pencil.rigid])
+        free[: pencil.rigid] = motions.T * (size < UNCOUPLED * np.abs(pencil.K1).max())
+    K0 = pencil.K0 + damping_of(pencil) @ free @ free.T
+    return Pencil(K0, pencil.K1 - pencil.K1 @ free @ free.T, pencil.M, pencil.rigid, pencil.shift)
