@@ -227,6 +227,8 @@ Refine = Callable[[Instability], tuple[CriticalPoint, float]]
 
 
 def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> CriticalThrust:
+    if method not in ("fast", "complete"):
+        raise ModelError(f"method: must be fast or complete, found {method!r}")
     full = pencil(operators)
     spare = SPARE if method == "fast" else COMPLETE_SPARE
     small = reduced(full, task.watched + spare)
@@ -268,8 +270,6 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
 
 
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
-    if method not in ("fast", "complete"):
-        raise ModelError(f"method: must be fast or complete, found {method!r}")
     if kind := mechanism(small, task.limit):
         modes = (1, 1) if kind == "divergence" else meeting_pair(small, 0.0, 0.0)
         return Instability(_start(0.0, 0.0), kind, modes)
