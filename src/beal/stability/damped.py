@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError
-from beal.stability.complete import NEXT, SAME, Event, nearly_real, zero_roots
+from beal.stability.complete import SAME, Event, nearly_real, zero_roots
 from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
 from beal.stability.imaginary_root import damping_of, imaginary_root
@@ -31,6 +31,7 @@ FLUTTER: Kind = "flutter"
 DIVERGENCE: Kind = "divergence"
 REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
 ON_AXIS = 1e-4  # Re s, beside |s|
+FIRST_SHARES = np.array([1e-5, 1e-4, 1e-3, 1e-2])  # of the limit
 SAMPLES = 24  # thrusts at which the unstable roots are counted to see that no crossing is missing
 BISECTIONS = 40
 GROWING = 1e-9  # Re s, beside |s|, from which a root counts as growing
@@ -65,7 +66,8 @@ def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) 
         found += _divergence(static, thrust)
     for thrust in _missed(pencil, [thrust for thrust, _, _ in found], limit, top):
         resolved = _flutter(pencil, thrust, top, closest=len(pencil.M)) + _divergence(static, thrust)
-        if not resolved and _on_axis(pencil, thrust, top):
+        slow = len(_growing(pencil, thrust / 2, top, GROWING / 10)) > 0  # grows from the start, and is seen only here
+        if not resolved and not slow and _on_axis(pencil, thrust, top):
             raise ConvergenceError(f"critical thrust near {thrust:.6g}: an instability there cannot be resolved")
         found += resolved
     found = distinct(found, limit)
@@ -95,8 +97,7 @@ def _flutter(pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST) 
     points = []
     for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:closest]]:
         point = imaginary_root(pencil, thrust, root.imag**2)
-        near = abs(point.thrust - thrust) < NEXT * thrust
-        if point.converged and near and ZERO * pencil.shift < point.W < top**2:
+        if point.converged and ZERO * pencil.shift < point.W < top**2:
             points.append((point.thrust, point.W, FLUTTER))
     return points
 
@@ -104,18 +105,19 @@ def _flutter(pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST) 
 def _divergence(static: Pencil, thrust: float) -> list[Crossing]:
     """Crossings of real roots next to an approximate thrust."""
     point = divergence(static, thrust)
-    return [(point.thrust, 0.0, DIVERGENCE)] if point.converged and abs(point.thrust - thrust) < NEXT * thrust else []
+    return [(point.thrust, 0.0, DIVERGENCE)] if point.converged else []
 
 
 def _on_axis(pencil: Pencil, thrust: float, top: float) -> bool:
     """Whether a root is all but on the imaginary axis."""
     s = damped_roots(pencil, thrust)
-    return bool(np.any(np.abs(s.real[np.abs(s) < top]) < ON_AXIS * np.abs(s[np.abs(s) < top])))
+    s = s[(np.abs(s) < top) & (np.abs(s) > NEUTRAL * np.sqrt(pencil.shift))]
+    return bool(np.any(np.abs(s.real) < ON_AXIS * np.abs(s)))
 
 
 def _missed(pencil: Pencil, known: list[float], limit: float, top: float) -> list[float]:
     """Thrusts at which the number of unstable roots changes away from the known ones."""
-    even = np.linspace(0.0, limit, SAMPLES + 1)[1:]
+    even = limit * np.concatenate((FIRST_SHARES, np.linspace(0.0, 1.0, SAMPLES + 1)[1:]))
     counts = [unstable_roots(pencil, P, top) for P in even]
     missed = []
     for low, high, before, after in zip(even, even[1:], counts, counts[1:], strict=False):
@@ -143,7 +145,7 @@ def crossings(pencil: Pencil, limit: float, vanishing: bool = False) -> Array:
     -------
     ndarray
     """
-    M, C = pencil.M, damping_of(pencil)
+    M, C = pencil.shift * pencil.M, np.sqrt(pencil.shift) * damping_of(pencil)  # time without units
     below, lower = np.tril_indices(len(M), -1), np.tril_indices(len(M))  # entries of X, of Y
 
     def block(rows: Pairs, columns: Pairs, sign: float, *products: tuple[Array, Array]) -> Array:
@@ -183,11 +185,12 @@ def growing_root(pencil: Pencil, thrust: float, top: float) -> float:
     return float(s.imag[s.real.argmax()] ** 2) if len(s) else 0.0
 
 
-def _growing(pencil: Pencil, thrust: float, top: float) -> ComplexArray:
+def _growing(pencil: Pencil, thrust: float, top: float, least: float = GROWING) -> ComplexArray:
+    """Roots below a frequency that grow at least at a share of their modulus."""
     s = damped_roots(pencil, thrust)
     size = np.abs(s)
     seen = (size < top) & (size > NEUTRAL * np.sqrt(pencil.shift))
-    return np.asarray(s[seen & (s.real > GROWING * size)])
+    return np.asarray(s[seen & (s.real > least * size)])
 
 
 def highest_frequency(undamped: Pencil, watched: int) -> float:

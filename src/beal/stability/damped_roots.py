@@ -4,7 +4,7 @@ import numpy as np
 
 from beal.stability.pencil import Array, ComplexArray, Pencil
 
-NEUTRAL = 1e-5  # |s| of a zero root of rigid-body motion, beside the square root of the shift
+NEUTRAL = 1e-4  # |s| of a zero root of rigid-body motion, beside the square root of the shift
 INFINITE = 1e-14  # |shift / (s - shift)| of a root at infinity
 
 

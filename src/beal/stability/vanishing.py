@@ -13,7 +13,6 @@ import scipy.linalg
 
 from beal.discretisation.build import Formulation, discretise
 from beal.errors import ModelError
-from beal.stability.complete import NEXT
 from beal.stability.critical import COMPLETE_SPARE, CriticalThrust, critical_thrust
 from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct
 from beal.stability.double_root import CriticalPoint
@@ -120,7 +119,7 @@ def _first_fed(small: Pencil, limit: float, watched: int) -> tuple[float, float]
         W, drained = _drained(small, thrust, watched)
         for root in W[np.argsort(np.abs(drained) / np.sqrt(W))[:CLOSEST]]:
             point = vanishing_root(small, thrust, float(root))
-            if point.converged and abs(point.thrust - thrust) < NEXT * thrust:
+            if point.converged:
                 found.append((point.thrust, point.W, FLUTTER))
     found = distinct(found, limit)
     ends = np.array([0.0, *(thrust for thrust, _, _ in found), limit])
