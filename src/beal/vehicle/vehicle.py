@@ -146,8 +146,8 @@ class Vehicle(Part):
     @cached_property
     def damped(self) -> bool:
         """Whether anything in it dissipates energy; the dashpot of a rigid joint does not."""
-        springs = ((j.rotational_stiffness, j.rotational_damping) for j in self.joints)
-        springs = (*springs, *((j.shear_stiffness, j.shear_damping) for j in self.joints))
+        springs = [(j.rotational_stiffness, j.rotational_damping) for j in self.joints]
+        springs += [(j.shear_stiffness, j.shear_damping) for j in self.joints]
         dashpots = (damping for stiffness, damping in springs if math.isfinite(stiffness))
         losses = (c for s in self.stages for c in (s.internal_damping, s.external_damping))
         return any(dashpots) or any(losses) or any(self.damping.ratios)
