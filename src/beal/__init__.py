@@ -18,11 +18,12 @@ if _typing.TYPE_CHECKING:
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
     from beal.stability.spectrum import Spectrum, spectrum
+    from beal.stability.vanishing import vanishing_damping_limit
     from beal.study.map import stability_map
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
     from beal.vehicle.file import dumps, loads
-    from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
+    from beal.vehicle.parts import Damping, Force, Joint, PointMass, Sensor, Stage, Support, Thrust
     from beal.vehicle.vehicle import Vehicle
 
 __version__ = _version("beal")
@@ -31,6 +32,7 @@ _HOMES = {
     "BealError": "beal.errors",
     "ConvergenceError": "beal.errors",
     "CriticalThrust": "beal.stability.critical",
+    "Damping": "beal.vehicle.parts",
     "Event": "beal.stability.complete",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
@@ -63,12 +65,14 @@ _HOMES = {
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
     "thrust_curve": "beal.stability.curve",
+    "vanishing_damping_limit": "beal.stability.vanishing",
 }
 
 __all__ = [
     "BealError",
     "ConvergenceError",
     "CriticalThrust",
+    "Damping",
     "Event",
     "Force",
     "Joint",
@@ -101,6 +105,7 @@ __all__ = [
     "spectrum",
     "stability_map",
     "thrust_curve",
+    "vanishing_damping_limit",
 ]
 
 

@@ -1,11 +1,13 @@
 """From a vehicle to its operators, under each of the formulations that the program names."""
 
+from dataclasses import replace
 from typing import Literal, get_args
 
 import numpy as np
 
 from beal.discretisation.assembly import assemble
 from beal.discretisation.basis import Basis, segments
+from beal.discretisation.damping import damping_matrix
 from beal.discretisation.hermite import HermiteBasis
 from beal.discretisation.legendre import LegendreBasis
 from beal.discretisation.modes import ModeBasis
@@ -28,7 +30,7 @@ def discretise(
     basis: BasisName = "legendre",
     order: int | None = None,
 ) -> Operators:
-    """Matrices of a vehicle, M q'' + (K0 + P K1) q = F.
+    """Matrices of a vehicle, M q'' + C q' + (K0 + P K1) q = F.
 
     Parameters
     ----------
@@ -73,12 +75,15 @@ def discretise(
         raise ModelError(
             f"order: {degree} gives some {size} coordinates, too many for dense matrices (at most {LARGEST}): "
             "lower it, or ask for the critical thrust or the modes, which reduce a large vehicle in the default basis"
+            + (" if it has no damping" if vehicle.damped else "")
         )
     shapes: Basis
     shapes = (LegendreBasis if basis == "legendre" else HermiteBasis)(vehicle, degree)
     if formulation == "converged":
-        return assemble(inertial(vehicle), shapes, rigid_body=False)
-    return assemble(vehicle, shapes)
+        operators = assemble(inertial(vehicle), shapes, rigid_body=False)
+    else:
+        operators = assemble(vehicle, shapes)
+    return replace(operators, C=damping_matrix(operators)) if vehicle.damped else operators
 
 
 def check_formulation(formulation: str) -> None:
@@ -109,5 +114,7 @@ def check_ritz(vehicle: Vehicle, formulation: str) -> None:
         reasons.append(f"free ends, found {vehicle.support.nose} nose and {vehicle.support.tail} tail")
     if vehicle.point_masses:
         reasons.append(f"no point masses, found {len(vehicle.point_masses)}")
+    if vehicle.damped:
+        reasons.append("no damping")
     if reasons:
         raise ModelError(f"formulation {formulation}: applies to the paper's vehicle only, {'; '.join(reasons)}")

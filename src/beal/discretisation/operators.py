@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Operators:
-    """Matrices of M q'' + (K0 + P K1) q = sum of F(t) phi(x_F).
+    """Matrices of M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F).
 
     Parameters
     ----------
@@ -26,6 +26,8 @@ class Operators:
         Number of leading coordinates that are rigid-body motions: they strain nothing and are M-orthogonal to the rest.
     basis : Basis
         The shapes of the coordinates.
+    C : ndarray, shape (n, n), or None
+        Damping, symmetric; None where there is none.
     """
 
     vehicle: Vehicle
@@ -34,6 +36,7 @@ class Operators:
     K1: Array
     rigid: int
     basis: Basis
+    C: Array | None = None
 
     def stiffness(self, thrust: float) -> Array:
         """K(P) = K0 + P K1, shape (n, n)."""

@@ -3,6 +3,7 @@
 from beal.vehicle import catalog
 from beal.vehicle.file import dumps, load, loads
 from beal.vehicle.parts import (
+    Damping,
     Force,
     Joint,
     PointMass,
@@ -19,6 +20,7 @@ from beal.vehicle.paths import value_at, with_values
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
+    "Damping",
     "Force",
     "Joint",
     "PointMass",

@@ -25,6 +25,10 @@ class Stage(Part):
         In kg/m.
     bending_stiffness : float
         EI, in N m^2.
+    internal_damping : float
+        Kelvin-Voigt time constant, in s: the bending moment is EI (y'' + internal_damping * dy''/dt).
+    external_damping : float
+        Transverse force per length and rate, in N s/m^2.
     name : str
 
     Examples
@@ -37,6 +41,8 @@ class Stage(Part):
     length: Annotated[FiniteFloat, si("m"), POSITIVE]
     mass_per_length: Annotated[FiniteFloat, si("kg/m"), POSITIVE]
     bending_stiffness: Annotated[FiniteFloat, si("N*m^2"), POSITIVE]
+    internal_damping: Annotated[FiniteFloat, si("s"), NOT_NEGATIVE] = 0.0
+    external_damping: Annotated[FiniteFloat, si("N*s/m^2"), NOT_NEGATIVE] = 0.0
 
 
 class Joint(Part):
@@ -48,6 +54,8 @@ class Joint(Part):
         k_r, in N m/rad.
     shear_stiffness : float
         k_s, in N/m.
+    rotational_damping, shear_damping : float
+        Of dashpots beside the springs, in N m s/rad and N s/m; a rigid joint does not move and its dashpots do nothing.
     shear_axis : {"mean", "forward", "aft", "inertial"}
         Direction along which the shear spring slides: the mean of both faces' slopes, one face's slope, or fixed in
         space. The last is the choice of Irani & Kavianipour (2009), whose joint does not balance moments.
@@ -56,6 +64,8 @@ class Joint(Part):
     name: str = ""
     rotational_stiffness: Annotated[float, si("N*m/rad"), NOT_NEGATIVE] = math.inf
     shear_stiffness: Annotated[float, si("N/m"), NOT_NEGATIVE] = math.inf
+    rotational_damping: Annotated[FiniteFloat, si("N*m*s/rad"), NOT_NEGATIVE] = 0.0
+    shear_damping: Annotated[FiniteFloat, si("N*s/m"), NOT_NEGATIVE] = 0.0
     shear_axis: ShearAxis = "mean"
 
 
@@ -102,6 +112,24 @@ class Thrust(Part):
     tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
     axial_force: Literal["inertia", "constant"] | None = None
     nominal: Annotated[FiniteFloat, si("N"), POSITIVE] | None = None
+
+
+class Damping(Part):
+    """Damping that is known by its ratios rather than by where it comes from; adds to that of stages and joints.
+
+    Parameters
+    ----------
+    ratios : sequence of float
+        Share of critical damping of the elastic modes of the unloaded vehicle, in order of frequency; the last ratio
+        holds for all modes above. Empty: none.
+
+    Examples
+    --------
+    >>> Damping(ratios=[0.01, 0.005]).ratios
+    (0.01, 0.005)
+    """
+
+    ratios: tuple[Annotated[FiniteFloat, si(""), NOT_NEGATIVE], ...] = ()
 
 
 class Sensor(Part):

@@ -34,8 +34,9 @@ def paths(vehicle: Vehicle) -> list[str]:
     Examples
     --------
     >>> from beal.vehicle.catalog import beck
-    >>> paths(beck())
-    ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness', 'thrust.tangency']
+    >>> paths(beck())  # doctest: +NORMALIZE_WHITESPACE
+    ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness', 'stage[0].internal_damping',
+     'stage[0].external_damping', 'thrust.tangency']
     """
     return [*_paths(vehicle, ""), *([SPLIT] if len(vehicle.stages) > 1 else [])]
 

@@ -41,6 +41,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "axial_force": vehicle.axial_force,
         "tangency": vehicle.thrust.tangency,
         "nominal_thrust": vehicle.thrust.nominal,
+        "damping_ratios": vehicle.damping.ratios,
         "stages": _stages(vehicle),
         "joints": _joints(vehicle),
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
@@ -59,6 +60,8 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
             "mass": stage.length * stage.mass_per_length,
             "mass_per_length": stage.mass_per_length,
             "bending_stiffness": stage.bending_stiffness,
+            "internal_damping": stage.internal_damping,
+            "external_damping": stage.external_damping,
         }
         for stage, start, end in ends
     ]
@@ -66,7 +69,14 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
 
 def _joints(vehicle: Vehicle) -> list[dict[str, Any]]:
     return [
-        {"name": joint.name, "station": station, "shear_axis": joint.shear_axis, **_springs(joint, 1.0, 1.0)}
+        {
+            "name": joint.name,
+            "station": station,
+            "shear_axis": joint.shear_axis,
+            **_springs(joint, 1.0, 1.0),
+            "rotational_damping": joint.rotational_damping,
+            "shear_damping": joint.shear_damping,
+        }
         for joint, station in zip(vehicle.joints, vehicle.boundaries[1:], strict=False)
     ]
 

@@ -12,7 +12,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beal.units import to_si
 from beal.vehicle.base import Part
-from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
+from beal.vehicle.parts import Damping, Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,7 @@ class Vehicle(Part):
     point_masses : sequence of PointMass
     support : Support
     thrust : Thrust
+    damping : Damping
     sensors : sequence of Sensor
     forces : sequence of Force
     title : str
@@ -78,6 +79,7 @@ class Vehicle(Part):
     point_masses: tuple[PointMass, ...] = Field(alias="point_mass", default=())
     support: Support = Support()
     thrust: Thrust = Thrust()
+    damping: Damping = Damping()
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
 
@@ -140,6 +142,24 @@ class Vehicle(Part):
     def axial_force(self) -> Literal["inertia", "constant"]:
         """The axial force law in force, the default resolved."""
         return self.thrust.axial_force or ("inertia" if self.free_free else "constant")
+
+    @cached_property
+    def damped(self) -> bool:
+        """Whether anything in it dissipates energy; the dashpot of a rigid joint does not."""
+        springs = [(j.rotational_stiffness, j.rotational_damping) for j in self.joints]
+        springs += [(j.shear_stiffness, j.shear_damping) for j in self.joints]
+        dashpots = (damping for stiffness, damping in springs if math.isfinite(stiffness))
+        losses = (c for s in self.stages for c in (s.internal_damping, s.external_damping))
+        return any(dashpots) or any(losses) or any(self.damping.ratios)
+
+    @property
+    def undamped(self) -> "Vehicle":
+        """The vehicle without its damping."""
+        if not self.damped:
+            return self
+        stages = [s.model_copy(update={"internal_damping": 0.0, "external_damping": 0.0}) for s in self.stages]
+        joints = [j.model_copy(update={"rotational_damping": 0.0, "shear_damping": 0.0}) for j in self.joints]
+        return self.model_copy(update={"stages": tuple(stages), "joints": tuple(joints), "damping": Damping()})
 
     @property
     def scales(self) -> Scales:
