@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 
 from beal.discretisation.axial import axial_force, axial_force_in_joints
 from beal.discretisation.basis import Array, Basis, Combined, Rows
 from beal.discretisation.operators import Operators
+from beal.discretisation.polynomials import gauss
+from beal.discretisation.quadrature import quadrature
 from beal.vehicle.vehicle import Vehicle
 
 HELD: dict[str, tuple[int, ...]] = {"free": (), "clamped": (0, 1), "pinned": (0,), "sliding": (1,)}  # derivatives
@@ -73,9 +73,6 @@ def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, 
     return _mass(vehicle, basis, samples), bending, follower - geometric
 
 
-gauss = cache(leggauss)
-
-
 def _products(rows: Rows, weights: Array) -> Rows:
     """Sum of weight * row row^T."""
     return rows.T @ (rows * weights[:, None])
@@ -105,20 +102,16 @@ class Samples:
 
 def sample(vehicle: Vehicle, basis: Basis) -> Samples:
     """A basis and the vehicle's properties at the Gauss points."""
-    xi, weight = gauss(basis.quadrature)
-    chain = basis.segments
-    half = np.array([segment.length / 2 for segment in chain])
-    weights = np.outer(half, weight)
-    stations = np.array([segment.start for segment in chain])[:, None] + np.outer(half, 1 + xi)
-    stages = [vehicle.stages[segment.stage] for segment in chain]
-    deflection, slope, curvature = (basis.stacked(range(len(chain)), xi, d) for d in (0, 1, 2))
+    points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
+    if basis.pieces:
+        rows = [basis.rows_at(points.segment, points.xi, d) for d in (0, 1, 2)]
+    else:
+        rows = [basis.stacked(range(len(basis.segments)), gauss(basis.quadrature)[0], d) for d in (0, 1, 2)]
     return Samples(
-        deflection,
-        slope,
-        curvature,
-        mass=(weights * np.array([[stage.mass_per_length] for stage in stages])).ravel(),
-        bending_stiffness=(weights * np.array([[stage.bending_stiffness] for stage in stages])).ravel(),
-        axial_force=(weights * axial_force(vehicle, stations)).ravel(),
+        *rows,
+        mass=points.weight * points.property("mass_per_length"),
+        bending_stiffness=points.weight * points.property("bending_stiffness"),
+        axial_force=points.weight * axial_force(vehicle, points.station),
     )
 
 

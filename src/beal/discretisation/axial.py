@@ -7,6 +7,7 @@ uniform stages). Constant where the nose takes the reaction.
 import numpy as np
 from numpy.typing import NDArray
 
+from beal.vehicle.stations import integral
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -18,6 +19,12 @@ def axial_force(vehicle: Vehicle, stations: Array) -> Array:
     if vehicle.axial_force == "constant":
         return np.ones_like(stations)
     forward = np.interp(stations, vehicle.boundaries, _stages_forward(vehicle))
+    for n, stage in enumerate(vehicle.stages):
+        if "mass_per_length" in stage.tables:
+            front, back = vehicle.boundaries[n : n + 2]
+            here = (stations >= front) & (stations <= back)
+            inside = integral(stage.mass_per_length, stations[here] - front)
+            forward[here] = _stages_forward(vehicle)[n] + inside
     if vehicle.point_masses:
         lumps = sorted((lump.station, lump.mass) for lump in vehicle.point_masses)
         fore = np.cumsum([0.0] + [mass for _, mass in lumps])
@@ -40,4 +47,4 @@ def axial_force_in_joints(vehicle: Vehicle) -> Array:
 
 def _stages_forward(vehicle: Vehicle) -> Array:
     """Mass of the stages forward of each boundary, shape (stages + 1,)."""
-    return np.cumsum([0.0] + [stage.length * stage.mass_per_length for stage in vehicle.stages])
+    return np.cumsum([0.0] + [stage.mass for stage in vehicle.stages])

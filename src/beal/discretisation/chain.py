@@ -3,6 +3,7 @@
 import numpy as np
 
 from beal.discretisation.basis import Array, Segment
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -15,8 +16,8 @@ def jump_scales(vehicle: Vehicle) -> list[tuple[float, float]]:
     length = vehicle.length
     return [
         (
-            (joint.shear_stiffness + stage.bending_stiffness / length**3) ** -0.5,
-            (joint.rotational_stiffness + stage.bending_stiffness / length) ** -0.5,
+            (joint.shear_stiffness + mean(stage.bending_stiffness) / length**3) ** -0.5,
+            (joint.rotational_stiffness + mean(stage.bending_stiffness) / length) ** -0.5,
         )
         for joint, stage in zip(vehicle.joints, vehicle.stages[1:], strict=True)
     ]

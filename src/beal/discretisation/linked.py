@@ -9,7 +9,6 @@ the number of segments. Unlike nodal coordinates alone, it keeps the digits of t
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -20,8 +19,10 @@ from scipy.sparse.linalg import SuperLU, splu
 from beal.discretisation.assembly import HELD, energies, normalised, sample
 from beal.discretisation.basis import Array, Basis, Combined, Rows, segments
 from beal.discretisation.chain import jump_scales
-from beal.discretisation.legendre import integrals
 from beal.discretisation.operators import Operators
+from beal.discretisation.polynomials import integrals
+from beal.discretisation.varying import moment_shapes, pieces
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -40,6 +41,8 @@ class LinkedBasis(Basis):
 
     def __init__(self, vehicle: Vehicle, order: int) -> None:
         self.segments = segments(vehicle)
+        self.pieces = pieces(vehicle, self.segments, order)
+        self._shapes = moment_shapes(vehicle, self.segments, self.pieces, order)
         self.quadrature = order + 3
         self._order = order
         count = len(self.segments)
@@ -48,7 +51,7 @@ class LinkedBasis(Basis):
         self.units = np.array([scales.length / scales.thrust, 1 / (scales.length * scales.thrust)]) ** 0.5
         self._lengths = np.array([segment.length for segment in self.segments])
         stages = np.array([segment.stage for segment in self.segments])
-        stiffness = np.array([stage.bending_stiffness for stage in vehicle.stages])[stages]
+        stiffness = np.array([mean(stage.bending_stiffness) for stage in vehicle.stages])[stages]
         self._unit_energy = (self._lengths * stiffness) ** -0.5
         self._jumps = np.zeros((count, 2))  # across the fronts, at a unit of the joints' coordinates
         self._jumps[np.flatnonzero(np.diff(stages)) + 1] = np.array(jump_scales(vehicle)).reshape(-1, 2)
@@ -67,8 +70,7 @@ class LinkedBasis(Basis):
         index = np.repeat(np.asarray(segments, dtype=np.intp), len(xi))
         return self._rows(index, np.tile(xi, len(segments)), self._integrated(xi, derivative), derivative)
 
-    def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Rows:
-        index, xi = self.located(stations, side)
+    def rows_at(self, index: NDArray[np.intp], xi: Array, derivative: int) -> Rows:
         return self._rows(index, xi, self._integrated(xi, derivative), derivative)
 
     def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
@@ -116,6 +118,9 @@ class LinkedBasis(Basis):
         degree = np.arange(self._order + 1)
         repeated = np.tile(values, (len(index) // max(len(values), 1), 1))
         data[:, 2:] = scale[:, None] * repeated * np.sqrt(2 * degree + 1)
+        for segment in set(index[np.isin(index, list(self._shapes))].tolist()):
+            here = index == segment
+            data[here, 2:] = self._shapes[segment].at(xi[here], derivative)
         polynomials = self._polynomials + index[:, None] + len(self.segments) * degree
         columns = np.hstack((2 * index[:, None], 2 * index[:, None] + 1, polynomials))
         ends = data.shape[1] * np.arange(len(index) + 1)

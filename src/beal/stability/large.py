@@ -19,6 +19,7 @@ from beal.discretisation.linked import LinkedOperators, linked
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError
 from beal.stability.double_root import CriticalPoint, chained
+from beal.stability.limit import waves
 from beal.stability.pencil import CORRECTED, TWICE_CORRECTED, Array, Pencil, pencil
 from beal.stability.refine import LAST_ORDER, polish
 from beal.stability.ridge import Instability
@@ -175,20 +176,15 @@ class Reduction:
 
 def _first_order(vehicle: Vehicle) -> int:
     """Lowest order to begin with: the longest stage, measured in waves, decides."""
-    waves = _waves(vehicle)
-    return 2 + 2 * math.ceil(3 * float(waves.max() / waves.sum()))
+    stages = np.array([segment.stage for segment in segments(vehicle)])
+    each = np.bincount(stages, waves(vehicle))
+    return 2 + 2 * math.ceil(3 * float(each.max() / each.sum()) - 1e-9)
 
 
 def _highest_root(vehicle: Vehicle) -> float:
     """W below which the rigidly jointed vehicle would have ``WATCHED`` modes (WKB)."""
-    return ((WATCHED + 0.5) * math.pi / float(_waves(vehicle).sum())) ** 4
-
-
-def _waves(vehicle: Vehicle) -> Array:
-    """Integral over each stage of (m/EI)^(1/4), the wave number at W = 1, with the point masses smeared."""
-    length, mass, stiffness = np.array([(s.length, s.mass_per_length, s.bending_stiffness) for s in vehicle.stages]).T
-    smeared = vehicle.mass / float(length @ mass)
-    return np.asarray(length * (smeared * mass / stiffness) ** 0.25)
+    smeared = vehicle.mass / sum(stage.mass for stage in vehicle.stages)  # the point masses
+    return ((WATCHED + 0.5) * math.pi / float(waves(vehicle).sum())) ** 4 / smeared
 
 
 def _extended(system: LinkedOperators, vectors: Array, added: Array, floor: float = 0.0) -> Array:

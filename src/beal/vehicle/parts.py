@@ -2,41 +2,83 @@
 
 import math
 import sys
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, FiniteFloat, model_validator
 
 from beal.vehicle.base import Part, si
+from beal.vehicle.stations import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    BendingStiffness,
+    FoundationStiffness,
+    MassPerLength,
+    Property,
+    StationTable,
+)
 
 LARGEST = sys.float_info.max
-POSITIVE, NOT_NEGATIVE = Field(gt=0), Field(ge=0)
 ShearAxis = Literal["mean", "forward", "aft", "inertial"]
 End = Literal["free", "clamped", "pinned", "sliding"]
+ALONG = ("mass_per_length", "bending_stiffness", "foundation_stiffness")  # what varies along a stage
 
 
 class Stage(Part):
-    """A uniform Euler-Bernoulli beam, one stage of the vehicle or a piece of one.
+    """An Euler-Bernoulli beam, one stage of the vehicle or a piece of one.
+
+    Every property along the stage is a number or a table ``{x = [...], value = [...]}``: x counts from the front of the
+    stage to its end, values are linear in between, and an x given twice is a step.
 
     Parameters
     ----------
     length : float
         In m.
-    mass_per_length : float
+    mass_per_length : float or table
         In kg/m.
-    bending_stiffness : float
+    bending_stiffness : float or table
         EI, in N m^2.
+    foundation_stiffness : float or table
+        Of a Winkler foundation: transverse force per length and deflection, in N/m^2.
     name : str
 
     Examples
     --------
-    >>> Stage(length=0.6, mass_per_length=1.0, bending_stiffness=1.0).length
+    >>> Stage(length=0.6, mass_per_length=1.0, bending_stiffness={"x": [0.0, 0.6], "value": [2.0, 1.0]}).mass
     0.6
     """
 
     name: str = ""
     length: Annotated[FiniteFloat, si("m"), POSITIVE]
-    mass_per_length: Annotated[FiniteFloat, si("kg/m"), POSITIVE]
-    bending_stiffness: Annotated[FiniteFloat, si("N*m^2"), POSITIVE]
+    mass_per_length: MassPerLength
+    bending_stiffness: BendingStiffness
+    foundation_stiffness: FoundationStiffness = 0.0
+
+    @model_validator(mode="after")
+    def _tables_reach_its_end(self) -> "Stage":
+        for name, table in self.tables.items():
+            if wrong := table.reaching(self.length, (name,)):
+                raise wrong
+        return self
+
+    @cached_property
+    def tables(self) -> dict[str, StationTable]:
+        """The properties that are tables, by name."""
+        given: dict[str, Property] = {name: getattr(self, name) for name in ALONG}
+        return {name: value for name, value in given.items() if isinstance(value, StationTable)}
+
+    @property
+    def mass(self) -> float:
+        """In kg."""
+        return self.mass_moments[0]
+
+    @property
+    def mass_moments(self) -> tuple[float, float, float]:
+        """Integrals of m, m x and m x^2, x from the front of the stage, in kg, kg m and kg m^2."""
+        mass, length = self.mass_per_length, self.length
+        if isinstance(mass, StationTable):
+            return mass.moments
+        return mass * length, mass * length**2 / 2, mass * length**3 / 3
 
 
 class Joint(Part):

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from beal.errors import ModelError
 from beal.vehicle.base import Part, problems
-from beal.vehicle.vehicle import Vehicle
+from beal.vehicle.vehicle import Vehicle, metres
 
 SPLIT = "stage.split"
 _STEP = re.compile(r"(\w+)(?:\[([0-9]{1,9})\])?")
@@ -28,14 +28,14 @@ def paths(vehicle: Vehicle) -> list[str]:
     Returns
     -------
     list of str
-        In the order of the model file, then ``stage.split`` where there are two stages or more. The entries of a
-        tabulated signal have no path.
+        In the order of the model file, then ``stage.split`` where there are two stages or more. The entries of
+        tables have no path.
 
     Examples
     --------
     >>> from beal.vehicle.catalog import beck
     >>> paths(beck())
-    ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness', 'thrust.tangency']
+    ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness', 'stage[0].foundation_stiffness', 'thrust.tangency']
     """
     return [*_paths(vehicle, ""), *([SPLIT] if len(vehicle.stages) > 1 else [])]
 
@@ -84,8 +84,8 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     vehicle : Vehicle
     values : mapping of path to number
         ``stage.split`` moves the first joint and keeps the total length of the first two stages; the stations of
-        masses, sensors and forces stay; lengths given beside it are set first. In SI, text with a unit is accepted as
-        in the model file.
+        masses, sensors and forces stay; lengths given beside it are set first. The tables of a stage whose length
+        changes are stretched with it. In SI, text with a unit is accepted as in the model file.
 
     Returns
     -------
@@ -117,6 +117,9 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
         stages = tree.setdefault("stages", {})
         stages.setdefault(0, {})["length"] = first
         stages.setdefault(1, {})["length"] = second
+    for index, branch in tree.get("stages", {}).items():
+        if (length := metres(branch, "length")) > 0:
+            branch |= {name: table.stretched(length) for name, table in vehicle.stages[index].tables.items()}
     try:
         return Vehicle.model_validate(_merged(vehicle, tree), context={"units": vehicle.units})
     except ValidationError as error:

@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from beal.vehicle.parts import Joint
+from beal.vehicle.stations import Property, StationTable
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -56,12 +57,16 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
             "name": stage.name,
             "from": start,
             "to": end,
-            "mass": stage.length * stage.mass_per_length,
-            "mass_per_length": stage.mass_per_length,
-            "bending_stiffness": stage.bending_stiffness,
+            "mass": stage.mass,
+            "mass_per_length": _property(stage.mass_per_length),
+            "bending_stiffness": _property(stage.bending_stiffness),
         }
         for stage, start, end in ends
     ]
+
+
+def _property(given: Property) -> float | dict[str, Any]:
+    return given.model_dump() if isinstance(given, StationTable) else given
 
 
 def _joints(vehicle: Vehicle) -> list[dict[str, Any]]:

@@ -13,13 +13,15 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from beal.units import to_si
 from beal.vehicle.base import Part
 from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
+from beal.vehicle.stations import mean
 
 
 @dataclass(frozen=True)
 class Scales:
     """Reference length [m], mass per length [kg/m] and bending stiffness [N m^2] of the non-dimensional form.
 
-    Irani & Kavianipour (2009), Eq. (6): the whole length, and the first stage's properties.
+    Irani & Kavianipour (2009), Eq. (6): the whole length, and the first stage's properties, their mean
+    where they vary.
     """
 
     length: float
@@ -114,22 +116,25 @@ class Vehicle(Part):
     @property
     def mass(self) -> float:
         """Total mass, in kg."""
-        return sum(s.length * s.mass_per_length for s in self.stages) + sum(p.mass for p in self.point_masses)
+        return sum(stage.mass for stage in self.stages) + sum(p.mass for p in self.point_masses)
 
     @property
     def centre_of_mass(self) -> float:
         """Station of the centre of mass, in m."""
         stages = zip(self.stages, self.boundaries, strict=False)
-        moment = sum(s.length * s.mass_per_length * (x + s.length / 2) for s, x in stages)
+        moment = sum(x * stage.mass + stage.mass_moments[1] for stage, x in stages)
         return (moment + sum(p.mass * p.station for p in self.point_masses)) / self.mass
 
     @property
     def moment_of_inertia(self) -> float:
         """Pitch inertia of the rigid vehicle about its centre of mass, in kg m^2."""
-        centre, stages = self.centre_of_mass, zip(self.stages, self.boundaries, strict=False)
-        return sum(
-            s.length * s.mass_per_length * (s.length**2 / 12 + (x + s.length / 2 - centre) ** 2) for s, x in stages
-        ) + sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
+        centre = self.centre_of_mass
+        inertia = sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
+        for stage, x in zip(self.stages, self.boundaries, strict=False):
+            mass, first, second = stage.mass_moments
+            own = first / mass  # centre of mass, from the stage's front
+            inertia += second - mass * own**2 + mass * (x + own - centre) ** 2
+        return inertia
 
     @property
     def free_free(self) -> bool:
@@ -144,7 +149,8 @@ class Vehicle(Part):
     @property
     def scales(self) -> Scales:
         """Reference quantities of the non-dimensional form."""
-        return Scales(self.length, self.stages[0].mass_per_length, self.stages[0].bending_stiffness)
+        first = self.stages[0]
+        return Scales(self.length, mean(first.mass_per_length), mean(first.bending_stiffness))
 
     def _in_range(self) -> bool:
         try:
@@ -171,11 +177,11 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
             f"must be one fewer than the stages, {len(stages) - 1} (an empty [[joint]] is rigid), found {len(joints)}"
         )
         yield ("joint",), message, len(joints)
-    lengths = [_metres(stage, "length") for stage in stages]
+    lengths = [metres(stage, "length") for stage in stages]
     total = sum(lengths) if lengths and all(x > 0 for x in lengths) else math.inf
     for alias, name in (("point_mass", "point_masses"), ("sensor", "sensors"), ("force", "forces")):
         for index, part in enumerate(_parts(data, alias, name)):
-            station = _metres(part, "station")
+            station = metres(part, "station")
             if station > total * (1 + 1e-12):
                 message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
                 yield (alias, index, "station"), message, station
@@ -194,7 +200,7 @@ def _field(part: Any, name: str) -> Any:
     return part.get(name) if isinstance(part, dict) else getattr(part, name, None)
 
 
-def _metres(part: Any, name: str) -> float:
+def metres(part: Any, name: str) -> float:
     """A length of raw input; nan, which fails every comparison, where it is not one."""
     value = _field(part, name)
     try:
