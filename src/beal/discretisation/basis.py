@@ -4,13 +4,12 @@ from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from beal.vehicle.parts import Stage
+from beal.discretisation.cuts import FEW, cuts
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -19,13 +18,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Rows = Any  # ndarray or sparse array of one row per reading of the shapes
 SNAP = 1e-9  # share of the length within which a station counts as a segment's end
-CUTS = 6  # of a stage at stations of its tables, at most
-STRAIGHT = 1e-9  # relative change of a value or its slope that is rounding
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of one stage over which properties are smooth, but for the lesser kinks of long tables."""
+    """A stretch of one stage over which every property is smooth, but for lesser kinks and steps."""
 
     stage: int
     start: float
@@ -36,11 +33,12 @@ class Segment:
         return self.start + self.length
 
 
-def segments(vehicle: Vehicle, pieces: int = 1) -> tuple[Segment, ...]:
+def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment, ...]:
     """Stretches of the stages between point masses and force stations, each cut into equal ``pieces``.
 
     A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
-    The kinks and steps of short tables are ends as well, the largest steps of long ones.
+    So do kinks and steps of the stages' properties; of ``few`` segments at most for each stage, the lesser ones lie
+    inside.
     """
     loads = sorted([lump.station for lump in vehicle.point_masses] + [force.station for force in vehicle.forces])
     margin = SNAP * vehicle.length
@@ -49,48 +47,15 @@ def segments(vehicle: Vehicle, pieces: int = 1) -> tuple[Segment, ...]:
         ends = [front]
         inner = loads[bisect_left(loads, front) : bisect_left(loads, back)]
         if vehicle.stages[stage].tables:
-            inner = sorted([*inner, *(front + x for x in _cuts(vehicle.stages[stage]))])
+            inner = sorted([*inner, *(front + x for x in cuts(vehicle.stages[stage], vehicle.length, few))])
         for station in inner:
             if ends[-1] + margin < station < back - margin:
                 ends.append(station)
         ends.append(back)
         for a, b in zip(ends, ends[1:], strict=False):
-            cuts = np.linspace(a, b, pieces + 1)
-            chain += [Segment(stage, float(x), float(y - x)) for x, y in zip(cuts, cuts[1:], strict=False)]
+            parts = np.linspace(a, b, pieces + 1)
+            chain += [Segment(stage, float(x), float(y - x)) for x, y in zip(parts, parts[1:], strict=False)]
     return tuple(chain)
-
-
-@lru_cache(maxsize=256)
-def _bends(stage: Stage) -> dict[float, float]:
-    """Stations of kinks and steps inside the stage; with each the relative height of the step."""
-    bends: dict[float, float] = {}
-    for table in stage.tables.values():
-        x, value = np.array(table.x), np.array(table.value)
-        keep = np.append(True, np.diff(x) > 0)  # the first of a station given twice
-        front = np.flatnonzero(keep)
-        back = np.append(front[1:], len(x)) - 1  # the last of it
-        slope = (value[front[1:]] - value[back[:-1]]) / np.diff(x[front])
-        step = np.abs(value[back] - value[front])[1:-1] / np.maximum(value[front], value[back])[1:-1].clip(1e-300)
-        kink = np.abs(np.diff(slope)) * stage.length / np.abs(value).max()
-        for n in np.flatnonzero((step > STRAIGHT) | (kink > STRAIGHT)):
-            station = float(x[front[n + 1]])
-            bends[station] = max(float(step[n]), bends.get(station, 0.0))
-    return bends
-
-
-@lru_cache(maxsize=256)
-def _cuts(stage: Stage) -> tuple[float, ...]:
-    """Stations at which the stage is cut: all kinks and steps where they are few, else the largest steps."""
-    bends = _bends(stage)
-    if len(bends) <= CUTS:
-        return tuple(sorted(bends))
-    steps = sorted((station for station, step in bends.items() if step > STRAIGHT), key=bends.__getitem__)
-    return tuple(sorted(steps[-CUTS:]))
-
-
-def is_smooth(vehicle: Vehicle) -> bool:
-    """Whether every kink and step of the properties is at the end of a segment, so that errors fall exponentially."""
-    return all(len(_bends(stage)) <= CUTS for stage in vehicle.stages if stage.tables)
 
 
 class Basis(ABC):

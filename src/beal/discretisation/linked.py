@@ -19,6 +19,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from beal.discretisation.assembly import HELD, energies, normalised, sample
 from beal.discretisation.basis import Array, Basis, Combined, Rows, segments
 from beal.discretisation.chain import jump_scales
+from beal.discretisation.cuts import ALL
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import integrals
 from beal.discretisation.varying import moment_shapes, pieces
@@ -40,7 +41,7 @@ class LinkedBasis(Basis):
     """
 
     def __init__(self, vehicle: Vehicle, order: int) -> None:
-        self.segments = segments(vehicle)
+        self.segments = segments(vehicle, few=ALL)
         self.pieces = pieces(vehicle, self.segments, order)
         self._shapes = moment_shapes(vehicle, self.segments, self.pieces, order)
         self.quadrature = order + 3

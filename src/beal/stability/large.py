@@ -15,6 +15,7 @@ import scipy.linalg
 
 from beal.discretisation.basis import segments
 from beal.discretisation.build import Formulation, check_formulation, inertial
+from beal.discretisation.cuts import ALL
 from beal.discretisation.linked import LinkedOperators, linked
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError
@@ -38,7 +39,7 @@ SAME = 1e-13  # relative change below which a point, or the roots beside the shi
 
 def is_large(vehicle: Vehicle) -> bool:
     """Whether a vehicle has so many segments that its dense matrices take longer than their reduction."""
-    return len(segments(vehicle)) >= SEGMENTS
+    return len(segments(vehicle, few=ALL)) >= SEGMENTS
 
 
 class Reduction:
@@ -175,9 +176,8 @@ class Reduction:
 
 
 def _first_order(vehicle: Vehicle) -> int:
-    """Lowest order to begin with: the longest stage, measured in waves, decides."""
-    stages = np.array([segment.stage for segment in segments(vehicle)])
-    each = np.bincount(stages, waves(vehicle))
+    """Lowest order to begin with: the longest segment, measured in waves, decides."""
+    each = waves(vehicle)
     return 2 + 2 * math.ceil(3 * float(each.max() / each.sum()) - 1e-9)
 
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from beal.discretisation.axial import axial_force
 from beal.discretisation.basis import segments
+from beal.discretisation.cuts import ALL
 from beal.discretisation.quadrature import Points, quadrature
 from beal.discretisation.varying import pieces
 from beal.vehicle.vehicle import Vehicle
@@ -34,5 +35,5 @@ def waves(vehicle: Vehicle) -> Array:
 
 def _points(vehicle: Vehicle) -> Points:
     """For integrals of which a few digits will do."""
-    chain = segments(vehicle)
+    chain = segments(vehicle, few=ALL)
     return quadrature(vehicle, chain, 8, pieces(vehicle, chain, 5))

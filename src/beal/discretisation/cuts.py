@@ -1,0 +1,81 @@
+"""Where the segments of a stage with tables end: at the kinks and steps that polynomials would notice."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beal.vehicle.parts import Stage
+
+Array = NDArray[np.float64]
+
+FEW = 11  # segments of a stage in dense matrices, at most
+ALL = 1_000_000
+# A step of relative height s inside a segment of length h leaves an error of some s^2 (h/L)^4 n^-5 in the critical
+# thrust, a kink by the relative slope k one of (k h)^2 (h/L)^4 n^-7; n = 8 at the least.
+STEP_TO_KINK = 30.0
+NOTICED = 1e-5  # (h/L)^4 (kinks + STEP_TO_KINK steps), which is some 1e-11 of the thrust
+
+
+@lru_cache(maxsize=256)
+def cuts(stage: Stage, length: float, few: int) -> tuple[float, ...]:
+    """Stations, from the front of the stage, that cut it into segments, at most ``few``.
+
+    Parameters
+    ----------
+    stage : Stage
+    length : float
+        Of the vehicle, which the shapes' waves are measured by, in m.
+    few : int
+
+    Returns
+    -------
+    tuple of float
+        In order.
+    """
+    stations, kinks, steps = _bends(stage)
+    ends = {0.0, stage.length}
+    open_segments = [_worst(0.0, stage.length, stations, kinks, steps, length)]
+    while open_segments and len(ends) <= few:
+        open_segments.sort()
+        severity, station, front, back = open_segments.pop()
+        if severity <= NOTICED:
+            break
+        ends.add(station)
+        for a, b in ((front, station), (station, back)):
+            open_segments.append(_worst(a, b, stations, kinks, steps, length))
+    return tuple(sorted(ends))[1:-1]
+
+
+def _worst(
+    front: float, back: float, stations: Array, kinks: Array, steps: Array, length: float
+) -> tuple[float, float, float, float]:
+    """How much polynomials notice of what is inside a segment, and the station that contributes most."""
+    inside = slice(*np.searchsorted(stations, (front, back), side="right"))
+    x = stations[inside]
+    x = x[: len(x) - int(len(x) > 0 and x[-1] == back)]
+    if not len(x):
+        return 0.0, front, front, back
+    inside = slice(inside.start, inside.start + len(x))
+    size = (back - front) ** 2 * kinks[inside] ** 2 + STEP_TO_KINK * steps[inside] ** 2
+    central = np.minimum(x - front, back - x)  # of equal ones the middle one
+    return float(size.sum() * ((back - front) / length) ** 4), float(x[np.argmax(size * central)]), front, back
+
+
+def _bends(stage: Stage) -> tuple[Array, Array, Array]:
+    """Stations inside the stage, relative changes of slope there [1/m], and relative steps; the largest of any table."""
+    found: dict[float, tuple[float, float]] = {}
+    for table in stage.tables.values():
+        x, value = np.array(table.x), np.array(table.value)
+        first = np.flatnonzero(np.append(True, np.diff(x) > 0))  # of a station given twice
+        last = np.append(first[1:], len(x)) - 1
+        slope = (value[first[1:]] - value[last[:-1]]) / np.diff(x[first])
+        size = np.maximum(np.abs(value[first]), np.abs(value[last]))[1:-1]
+        size = np.maximum(size, 1e-3 * np.abs(value).max())
+        bends = zip(x[first][1:-1], np.abs(np.diff(slope)) / size, np.abs(value[last] - value[first])[1:-1] / size)
+        for station, kink, step in bends:
+            before = found.get(float(station), (0.0, 0.0))
+            found[float(station)] = (max(float(kink), before[0]), max(float(step), before[1]))
+    stations = np.array(sorted(found))
+    kinks, steps = np.array([found[x] for x in stations.tolist()]).reshape(-1, 2).T
+    return stations, kinks, steps
