@@ -21,6 +21,7 @@ UNITS = {
     "station": "m",
     "mass_per_length": "kg/m",
     "bending_stiffness": "N m^2",
+    "foundation_stiffness": "N/m^2",
     "rotary_inertia": "kg m^2",
     "rotational_stiffness": "N m/rad",
     "shear_stiffness": "N/m",

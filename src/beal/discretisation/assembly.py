@@ -4,25 +4,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import vstack
 
 from beal.discretisation.axial import axial_force, axial_force_in_joints
 from beal.discretisation.basis import Array, Basis, Combined, Rows
+from beal.discretisation.chain import held
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import gauss
-from beal.discretisation.quadrature import quadrature
+from beal.discretisation.quadrature import Points, quadrature
 from beal.vehicle.vehicle import Vehicle
-
-HELD: dict[str, tuple[int, ...]] = {"free": (), "clamped": (0, 1), "pinned": (0,), "sliding": (1,)}  # derivatives
 
 
 def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: bool = True) -> Operators:
     """M, K0 and K1 of a vehicle in a basis.
 
         M  = int m phi phi^T dx + sum (m_p phi phi^T + J_p phi' phi'^T)
-        K0 = int EI phi'' phi''^T dx + sum (k_r [[phi']] [[phi']]^T + k_s [[phi]] [[phi]]^T)
+        K0 = int (EI phi'' phi''^T + k_f phi phi^T) dx + sum (k_r [[phi']] [[phi']]^T + k_s [[phi]] [[phi]]^T)
         K1 = - int n phi' phi'^T dx - sum n_j ([[phi]] sigma^T + sigma [[phi]]^T) + eta phi(L) phi'(L)^T
 
-    with n = N/P. Supports are imposed exactly and the rigid-body motions that they leave are made M-orthogonal to the
+    with n = N/P, and springs to the ground in K0 as those of joints. Supports are imposed exactly and the rigid-body motions that they leave are made M-orthogonal to the
     elastic coordinates.
 
     Parameters
@@ -52,8 +52,7 @@ def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: 
 
 def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, Rows, Rows]:
     """M, K0 and K1 in the coordinates of a basis: dense or sparse, as its rows are."""
-    bending = _products(samples.curvature, samples.bending_stiffness)
-    geometric = _products(samples.slope, samples.axial_force)
+    bending, geometric = samples.bending.matrix(), samples.axial.matrix()
     chain = basis.segments
     fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
     for derivative, name in ((0, "shear_stiffness"), (1, "rotational_stiffness")):
@@ -68,6 +67,10 @@ def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, 
             axes = _shear_axes(basis, aft, [vehicle.joints[joint].shear_axis for joint in flexible])
             couples = jumps.T @ (axes * axial_force_in_joints(vehicle)[flexible, None])
             geometric = geometric + couples + couples.T
+    if basis.springs:
+        bending = bending + _products(basis.deformations(), np.array([spring.stiffness for spring in basis.springs]))
+    if samples.foundation:
+        bending = bending + samples.foundation.matrix()
     tail, tail_slope = (basis.stacked([len(chain) - 1], np.array([1.0]), d) for d in (0, 1))
     follower = vehicle.thrust.tangency * (tail.T @ tail_slope)
     return _mass(vehicle, basis, samples), bending, follower - geometric
@@ -79,44 +82,66 @@ def _products(rows: Rows, weights: Array) -> Rows:
 
 
 @dataclass(frozen=True)
-class Samples:
-    """Shapes at the Gauss points of all segments, with the weights of the integrals."""
+class Integral:
+    """The matrix sum of weight * row row^T, an integral over the vehicle by its terms."""
 
-    deflection: Rows
-    slope: Rows
-    curvature: Rows
-    mass: Array
-    bending_stiffness: Array
-    axial_force: Array
+    rows: Rows
+    weights: Array
+
+    def matrix(self) -> Rows:
+        return _products(self.rows, self.weights)
+
+    def combined(self, transformation: Array) -> "Integral":
+        return Integral(self.rows @ transformation, self.weights)
+
+
+@dataclass(frozen=True)
+class Samples:
+    """The integrals over the vehicle: m phi phi^T, EI phi'' phi''^T n phi' phi'^T, and k phi phi^T of a foundation."""
+
+    mass: Integral
+    bending: Integral
+    axial: Integral
+    foundation: Integral | None = None
 
     def combined(self, transformation: Array) -> "Samples":
-        return Samples(
-            self.deflection @ transformation,
-            self.slope @ transformation,
-            self.curvature @ transformation,
-            self.mass,
-            self.bending_stiffness,
-            self.axial_force,
-        )
+        integrals = (self.mass, self.bending, self.axial, self.foundation)
+        return Samples(*(each and each.combined(transformation) for each in integrals))
 
 
 def sample(vehicle: Vehicle, basis: Basis) -> Samples:
-    """A basis and the vehicle's properties at the Gauss points."""
+    """A basis and the vehicle's properties at the points of the integrals."""
     points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
-    if basis.pieces:
-        rows = [basis.rows_at(points.segment, points.xi, d) for d in (0, 1, 2)]
-    else:
-        rows = [basis.stacked(range(len(basis.segments)), gauss(basis.quadrature)[0], d) for d in (0, 1, 2)]
+    integral = _compressed if basis.pieces else _at_points
     return Samples(
-        *rows,
-        mass=points.weight * points.property("mass_per_length"),
-        bending_stiffness=points.weight * points.property("bending_stiffness"),
-        axial_force=points.weight * axial_force(vehicle, points.station),
+        mass=integral(basis, points, 0, points.property("mass_per_length")),
+        bending=integral(basis, points, 2, points.property("bending_stiffness")),
+        axial=integral(basis, points, 1, axial_force(vehicle, points.station)),
+        foundation=integral(basis, points, 0, points.property("foundation_stiffness")) if vehicle.founded else None,
     )
 
 
+def _at_points(basis: Basis, points: Points, derivative: int, density: Array) -> Integral:
+    rows = basis.stacked(range(len(basis.segments)), gauss(basis.quadrature)[0], derivative)
+    return Integral(rows, points.weight * density)
+
+
+def _compressed(basis: Basis, points: Points, derivative: int, density: Array) -> Integral:
+    """As many terms for each segment as shapes live there, however many pieces it has."""
+    ends = np.searchsorted(points.segment, np.arange(len(basis.segments) + 1))
+    weighted = points.weight * density
+    rows, weights = [], []
+    for segment, (a, b) in enumerate(zip(ends, ends[1:], strict=False)):
+        local = basis.at_points(segment, derivative)
+        principal, directions = np.linalg.eigh(local.T @ (local * weighted[a:b, None]))
+        rows.append(basis.expanded(segment, directions.T))
+        weights.append(principal)
+    stack = np.vstack if isinstance(rows[0], np.ndarray) else vstack
+    return Integral(stack(rows), np.concatenate(weights))
+
+
 def _mass(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:
-    mass = _products(samples.deflection, samples.mass)
+    mass = samples.mass.matrix()
     if vehicle.point_masses:
         stations = np.array([lump.station for lump in vehicle.point_masses])
         for derivative, name in ((0, "mass"), (1, "rotary_inertia")):
@@ -136,10 +161,10 @@ def _shear_axes(basis: Basis, segments: Sequence[int], axes: Sequence[str]) -> R
 
 def _admissible(vehicle: Vehicle, basis: Basis, samples: Samples, rigid_body: bool) -> tuple[Array, int]:
     """Combinations of the raw coordinates that satisfy the supports: rigid-body motions first, then elastic ones."""
-    ends = ((0, -1.0), (len(basis.segments) - 1, 1.0))
-    held = zip(ends, (vehicle.support.nose, vehicle.support.tail), strict=True)
-    rows = [basis.rows(segment, np.array([xi]), d)[0] for (segment, xi), end in held for d in HELD[end]]
+    rows = [basis.end(end, derivative) for end, derivative in held(vehicle)]
+    rows += [basis.end(spring.end, spring.derivative) for spring in basis.springs]
     constraints = np.array(rows).reshape(-1, basis.size)
+    constraints[len(constraints) - len(basis.springs) :] -= basis.deformations()
     on_rigid, on_strain = constraints[:, :2] * (1.0, 1 / vehicle.length), constraints[:, 2:]
     u, singular, vt = np.linalg.svd(on_rigid, full_matrices=True)
     rank = int(np.sum(singular > 1e-12))
@@ -154,6 +179,8 @@ def _admissible(vehicle: Vehicle, basis: Basis, samples: Samples, rigid_body: bo
         modal = rigid.T @ mass @ rigid
         elastic = elastic - rigid @ np.linalg.solve(modal, rigid.T @ mass @ elastic)
         rigid = normalised(vehicle, modal, rigid)
+    if vehicle.founded:  # then these motions strain the foundation
+        return np.hstack((rigid, elastic)), 0
     if not rigid_body:
         rigid = rigid[:, :0]
     return np.hstack((rigid, elastic)), rigid.shape[1]

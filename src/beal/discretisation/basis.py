@@ -13,6 +13,7 @@ from beal.discretisation.cuts import FEW, cuts
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
+    from beal.discretisation.chain import GroundSpring
     from beal.discretisation.varying import Pieces
 
 Array = NDArray[np.float64]
@@ -69,6 +70,8 @@ class Basis(ABC):
     quadrature: int  # Gauss points per segment that integrate the products of the shapes exactly
     pieces: "Mapping[int, Pieces]" = {}  # of the segments along which properties vary, by number
 
+    springs: "tuple[GroundSpring, ...]" = ()
+
     @property
     @abstractmethod
     def size(self) -> int:
@@ -99,6 +102,10 @@ class Basis(ABC):
             rows[here] = self.rows(int(segment), xi[here], derivative)
         return rows
 
+    def end(self, end: int, derivative: int) -> Array:
+        """Values at the nose (0) or tail (1), shape (size,)."""
+        return np.asarray(self.rows(-end % len(self.segments), np.array([2.0 * end - 1.0]), derivative)[0])
+
     def jump(self, segment: int, derivative: int) -> Array:
         """[[f]] = f(aft side) - f(forward side) across the front of a segment, shape (size,)."""
         aft = self.rows(segment, np.array([-1.0]), derivative)[0]
@@ -107,6 +114,18 @@ class Basis(ABC):
     def stacked(self, segments: Sequence[int], xi: Array, derivative: int) -> Rows:
         """Rows of several segments below each other, shape (len(segments) * len(xi), size)."""
         return np.array([self.rows(i, xi, derivative) for i in segments]).reshape(-1, self.size)
+
+    def deformations(self) -> Rows:
+        """Deflections and slopes of the ground springs' ends, shape (springs, size)."""
+        return np.zeros((0, self.size))
+
+    def at_points(self, segment: int, derivative: int) -> Array:
+        """A derivative of the shapes that live on a segment at its Gauss points, shape (points, shapes)."""
+        raise NotImplementedError
+
+    def expanded(self, segment: int, local: Array) -> Rows:
+        """Rows over all shapes from rows over those that live on a segment, shape (len(local), size)."""
+        raise NotImplementedError
 
     def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
         """Jumps across the fronts of several segments, shape (len(segments), size)."""
@@ -143,3 +162,10 @@ class Combined(Basis):
 
     def jump(self, segment: int, derivative: int) -> Array:
         return self.basis.jump(segment, derivative) @ self.transformation
+
+    @property
+    def springs(self) -> "tuple[GroundSpring, ...]":  # type: ignore[override]
+        return self.basis.springs
+
+    def deformations(self) -> Rows:
+        return self.basis.deformations() @ self.transformation

@@ -107,6 +107,8 @@ def check_ritz(vehicle: Vehicle, formulation: str) -> None:
         reasons.append("two stages of equal, uniform mass per length and bending stiffness")
     if not vehicle.free_free:
         reasons.append(f"free ends, found {vehicle.support.nose} nose and {vehicle.support.tail} tail")
+    if vehicle.founded:
+        reasons.append("no foundation")
     if vehicle.point_masses:
         reasons.append(f"no point masses, found {len(vehicle.point_masses)}")
     if reasons:

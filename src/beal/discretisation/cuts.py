@@ -14,7 +14,7 @@ ALL = 1_000_000
 # A step of relative height s inside a segment of length h leaves an error of some s^2 (h/L)^4 n^-5 in the critical
 # thrust, a kink by the relative slope k one of (k h)^2 (h/L)^4 n^-7; n = 8 at the least.
 STEP_TO_KINK = 30.0
-NOTICED = 1e-5  # (h/L)^4 (kinks + STEP_TO_KINK steps), which is some 1e-11 of the thrust
+NOTICED = 1e-6  # (h/L)^4 (kinks + STEP_TO_KINK steps), which is some 1e-12 of the thrust
 
 
 @lru_cache(maxsize=256)

@@ -12,7 +12,7 @@ from numpy.polynomial import legendre
 
 from beal.discretisation.basis import Array, Basis, segments
 from beal.discretisation.chain import Chain
-from beal.discretisation.polynomials import integrals
+from beal.discretisation.polynomials import gauss, integrals
 from beal.discretisation.varying import moment_shapes, pieces
 from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
@@ -41,6 +41,7 @@ class LegendreBasis(Basis):
         chain = Chain(vehicle, self.segments, per_segment=order + 1)
         self._size = chain.size
         self._columns = chain.columns
+        self.springs, self.deformations = chain.springs, chain.deformations  # type: ignore[method-assign]
         self._stiffness = [mean(vehicle.stages[segment.stage].bending_stiffness) for segment in self.segments]
         self._front = np.zeros((len(self.segments), 2, self._size))  # deflection and slope at the fronts
         state = chain.nose()
@@ -80,6 +81,26 @@ class LegendreBasis(Basis):
             rows += slope
         rows[:, self._columns[segment]] += self._local(segment, xi, derivative)
         return rows
+
+    def at_points(self, segment: int, derivative: int) -> Array:
+        xi = self.pieces[segment].xi if segment in self.pieces else gauss(self.quadrature)[0]
+        shapes = self._shapes.get(segment)
+        own = shapes.at_points(derivative) if shapes else self._local(segment, xi, derivative)
+        return self._behind(segment, xi, derivative, own)
+
+    def expanded(self, segment: int, local: Array) -> Array:
+        rows = local[:, :2] @ self._front[segment]
+        rows[:, self._columns[segment]] += local[:, 2:]
+        return rows
+
+    def _behind(self, segment: int, xi: Array, derivative: int, own: Array) -> Array:
+        """A segment's own shapes beside those of a unit deflection and slope at its front."""
+        front = np.zeros((len(xi), 2))
+        if derivative < 2:
+            front[:, derivative] = 1.0
+        if derivative == 0:
+            front[:, 1] = self.segments[segment].length * (1 + xi) / 2
+        return np.hstack((front, own))
 
 
 @lru_cache(maxsize=256)

@@ -7,6 +7,7 @@ stiffness they are the Legendre polynomials of the curvature.
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -18,8 +19,9 @@ from beal.vehicle.stations import StationTable
 from beal.vehicle.vehicle import Vehicle
 
 RATIO = 2.0  # of the stiffness at the ends of a piece, at most
-DIGITS = 15.0 * math.log(10.0)
-SMOOTH = 6  # Gauss points that a piece takes beyond the half waves that a polynomial may have on it
+DIGITS = 14.0 * math.log(10.0)
+FEW_POINTS = 48  # come again for every piece, as Gauss points and ends do
+SMOOTH = 5  # Gauss points that a piece takes beyond the half waves that a polynomial may have on it
 
 
 class Pieces:
@@ -35,13 +37,13 @@ class Pieces:
     """
 
     def __init__(self, stage: Stage, start: float, length: float, order: int) -> None:
-        tables = list(stage.tables.values())
-        stations = np.concatenate([table.x for table in tables])
+        stations = np.concatenate([table.arrays.x for table in stage.tables.values()])
         end = start + length
         margin = 1e-9 * length
         inner = np.unique(stations[(stations > start + margin) & (stations < end - margin)])
         edges = np.concatenate(([start], inner, [end]))
         self.edges = _cut_by_ratio(edges, stage.bending_stiffness) - start
+        self.edges[-1] = length
         self.widths = np.diff(self.edges)
         self.length = length
         t, weight = gauss(self._points(stage, order, start))
@@ -80,15 +82,14 @@ def _cut_by_ratio(edges: Array, stiffness: object) -> Array:
     """More edges where a linear stiffness changes by more than RATIO, in geometric progression of the stiffness."""
     if not isinstance(stiffness, StationTable):
         return edges
-    cut = [edges[:1]]
-    for a, b in zip(edges, edges[1:], strict=False):
-        near = (b - a) * 1e-6
-        first, last = stiffness.at([a + near, b - near])
-        parts = max(1, math.ceil(abs(math.log(last / first)) / math.log(RATIO)))
-        share = np.arange(1, parts + 1) / parts
-        cut.append(a + (b - a) * ((last / first) ** share - 1) / (last / first - 1) if parts > 1 else np.array([b]))
-        cut[-1][-1] = b
-    return np.concatenate(cut)
+    near = 1e-6 * np.diff(edges)
+    growth = stiffness.at(edges[1:] - near) / stiffness.at(edges[:-1] + near)
+    parts = np.ceil(np.abs(np.log(growth)) / math.log(RATIO)).astype(int)
+    more = [edges]
+    for n in np.flatnonzero(parts > 1):
+        share = (growth[n] ** (np.arange(1, parts[n]) / parts[n]) - 1) / (growth[n] - 1)
+        more.append(edges[n] + (edges[n + 1] - edges[n]) * share)
+    return np.sort(np.concatenate(more))
 
 
 class MomentShapes:
@@ -114,15 +115,27 @@ class MomentShapes:
         curvature = np.linalg.solve(np.linalg.cholesky(gram), curvature.T).T.reshape(-1, points, order + 1)
         # On each piece, the polynomial through the Gauss points.
         degree = np.arange(points)
-        to_series = (legendre.legvander(pieces.t, points - 1) * pieces.weight[:, None]).T * (degree[:, None] + 0.5)
+        to_series = (_integrated(points - 1, 0, pieces.t) * pieces.weight[:, None]).T * (degree[:, None] + 0.5)
         self._series = to_series @ curvature
         half = pieces.widths[:, None] / 2
         turn = half * 2 * self._series[:, 0]
         slope = np.vstack((np.zeros(order + 1), np.cumsum(turn, axis=0)))
-        end = legendre.legvander(np.array([1.0]), points + 1) @ integrals(points - 1, 2)
+        end = _integrated(points - 1, 2, np.ones(1))
         rise = 2 * half * slope[:-1] + half**2 * (end @ self._series)[:, 0]
         self._slope = slope[:-1]
         self._deflection = np.vstack((np.zeros(order + 1), np.cumsum(rise, axis=0)))[:-1]
+
+    def at_points(self, derivative: int) -> Array:
+        """The same as ``at`` the Gauss points of the pieces."""
+        pieces = self._pieces
+        half = pieces.widths[:, None, None] / 2
+        polynomials = _integrated(len(pieces.t) - 1, 2 - derivative, pieces.t)
+        found = (polynomials @ self._series) * half ** (2 - derivative)
+        if derivative == 1:
+            found += self._slope[:, None]
+        elif derivative == 0:
+            found += self._deflection[:, None] + (1 + pieces.t[:, None]) * half * self._slope[:, None]
+        return np.asarray(found.reshape(-1, found.shape[2]))
 
     def at(self, xi: Array, derivative: int) -> Array:
         """Deflections, slopes or curvatures at xi in [-1, 1] of the segment, shape (len(xi), order + 1)."""
@@ -131,8 +144,7 @@ class MomentShapes:
         piece = np.clip(np.searchsorted(pieces.edges, x, side="right") - 1, 0, len(pieces.widths) - 1)
         half = pieces.widths[piece] / 2
         t = (x - pieces.edges[piece]) / half - 1
-        points = len(pieces.t)
-        polynomials = legendre.legvander(t, points + 1) @ integrals(points - 1, 2 - derivative)
+        polynomials = _integrated(len(pieces.t) - 1, 2 - derivative, t)
         found = np.einsum("kg,kgn->kn", polynomials, self._series[piece]) * half[:, None] ** (2 - derivative)
         if derivative == 1:
             found += self._slope[piece]
@@ -161,3 +173,17 @@ def moment_shapes(
         if isinstance(stiffness, StationTable):
             found[index] = MomentShapes(parts, stiffness, segment.start - vehicle.boundaries[segment.stage], order)
     return found
+
+
+def _integrated(degree: int, times: int, t: Array) -> Array:
+    """P_0..P_degree integrated from -1 ``times`` times, shape (len(t), degree + 1)."""
+    return _few_integrated(degree, times, tuple(t)) if len(t) <= FEW_POINTS else _legendre(degree, times, t)
+
+
+@lru_cache(maxsize=256)
+def _few_integrated(degree: int, times: int, t: tuple[float, ...]) -> Array:
+    return _legendre(degree, times, np.array(t))
+
+
+def _legendre(degree: int, times: int, t: Array) -> Array:
+    return legendre.legvander(t, degree + 2) @ integrals(degree, times)

@@ -223,7 +223,7 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     found = _first(task, small, method)
     watched = min(task.watched, len(small.M) - small.rigid)
     rigid_body: Literal["neutral", "tumbling", "held"]
-    floats = operators.rigid > 0 or operators.vehicle.free_free
+    floats = operators.rigid > 0 or (operators.vehicle.free_free and not operators.vehicle.founded)
     rigid_body = "tumbling" if drift == "tumbling" else "neutral" if floats else "held"
     nothing = CriticalThrust(None, "stable", None, None, None, task.formulation, task.limit, watched, rigid_body)
     result = nothing

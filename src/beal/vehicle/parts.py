@@ -5,9 +5,9 @@ import sys
 from functools import cached_property
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, FiniteFloat, model_validator
+from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 
-from beal.vehicle.base import Part, si
+from beal.vehicle.base import PLAIN, TABLE, Part, si
 from beal.vehicle.stations import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -16,11 +16,13 @@ from beal.vehicle.stations import (
     MassPerLength,
     Property,
     StationTable,
+    form,
 )
 
 LARGEST = sys.float_info.max
 ShearAxis = Literal["mean", "forward", "aft", "inertial"]
-End = Literal["free", "clamped", "pinned", "sliding"]
+HeldEnd = Literal["free", "clamped", "pinned", "sliding"]
+HELD = {"free": (0.0, 0.0), "clamped": (math.inf, math.inf), "pinned": (math.inf, 0.0), "sliding": (0.0, math.inf)}
 ALONG = ("mass_per_length", "bending_stiffness", "foundation_stiffness")  # what varies along a stage
 
 
@@ -120,11 +122,42 @@ class PointMass(Part):
     rotary_inertia: Annotated[FiniteFloat, si("kg*m^2"), NOT_NEGATIVE] = 0.0
 
 
+class ElasticEnd(Part):
+    """Springs between an end and the ground; an infinite stiffness holds it, zero leaves it free.
+
+    Parameters
+    ----------
+    translation : float
+        Against deflection, in N/m.
+    rotation : float
+        Against slope, in N m/rad.
+    """
+
+    translation: Annotated[float, si("N/m"), NOT_NEGATIVE] = 0.0
+    rotation: Annotated[float, si("N*m/rad"), NOT_NEGATIVE] = 0.0
+
+
+End = Annotated[Annotated[HeldEnd, Tag(PLAIN)] | Annotated[ElasticEnd, Tag(TABLE)], Discriminator(form)]
+
+
 class Support(Part):
-    """How the two ends are held: ``free``, ``clamped``, ``pinned`` or ``sliding`` (slope held, deflection free)."""
+    """How the two ends are held: ``free``, ``clamped``, ``pinned``, ``sliding`` (slope held), or by springs.
+
+    Parameters
+    ----------
+    nose, tail : {"free", "clamped", "pinned", "sliding"} or ElasticEnd
+    """
 
     nose: End = "free"
     tail: End = "free"
+
+    @property
+    def stiffness(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Of nose and tail against deflection and slope, in N/m and N m/rad; infinite where held."""
+        nose, tail = (
+            (end.translation, end.rotation) if isinstance(end, ElasticEnd) else HELD[end] for end in (self.nose, self.tail)
+        )
+        return nose, tail
 
 
 class Thrust(Part):

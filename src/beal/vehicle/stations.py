@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError, ValidationError
 
-from beal.vehicle.base import NUMBER, TABLE, Part, si
+from beal.vehicle.base import PLAIN, TABLE, Part, si
 
 Array = NDArray[np.float64]
 POSITIVE, NOT_NEGATIVE = Field(gt=0), Field(ge=0)
@@ -17,7 +17,7 @@ REACH = 1e-9  # share of the length within which a table's last station is the e
 
 
 @dataclass(frozen=True, eq=False)  # so that tables are compared by their fields
-class _Arrays:
+class Arrays:
     """A table as arrays, and its integral from the front to each station."""
 
     x: Array
@@ -74,35 +74,36 @@ class StationTable(Part):
 
     def at(self, x: ArrayLike) -> Array:
         """Values at stations, in any shape; in a step either side's."""
-        return np.asarray(np.interp(x, self._arrays.x, self._arrays.value))
+        return np.asarray(np.interp(x, self.arrays.x, self.arrays.value))
 
     def integral(self, x: ArrayLike) -> Array:
         """Integral from the front to stations, in any shape; exact."""
-        stations, values = self._arrays.x, self._arrays.value
+        stations, values = self.arrays.x, self.arrays.value
         piece = np.clip(np.searchsorted(stations, x, side="right") - 1, 0, len(stations) - 2)
         width = np.maximum(np.diff(stations), np.finfo(float).tiny)[piece]
         share = (np.clip(x, 0.0, stations[-1]) - stations[piece]) / width
         rise = (values[1:] - values[:-1])[piece]
-        return np.asarray(self._arrays.cumulative[piece] + width * share * (values[piece] + share / 2 * rise))
+        return np.asarray(self.arrays.cumulative[piece] + width * share * (values[piece] + share / 2 * rise))
 
     @property
     def mean(self) -> float:
         """Mean over the length."""
-        return float(self._arrays.cumulative[-1]) / self.x[-1]
+        return float(self.arrays.cumulative[-1]) / self.x[-1]
 
     @cached_property
     def moments(self) -> tuple[float, float, float]:
         """Integrals of the values times 1, x and x^2."""
-        stations, values = self._arrays.x, self._arrays.value
+        stations, values = self.arrays.x, self.arrays.value
         a, b, f, g = stations[:-1], stations[1:], values[:-1], values[1:]
         middle, mean = (a + b) / 2, (f + g) / 2
         powers = [(b - a) / 6 * (f * a**n + 4 * mean * middle**n + g * b**n) for n in range(3)]  # Simpson: to degree 3
         return float(powers[0].sum()), float(powers[1].sum()), float(powers[2].sum())
 
     @cached_property
-    def _arrays(self) -> "_Arrays":
+    def arrays(self) -> "Arrays":
+        """The same as arrays."""
         x, value = np.array(self.x), np.array(self.value)
-        return _Arrays(x, value, np.concatenate(([0.0], np.cumsum(np.diff(x) * (value[1:] + value[:-1]) / 2))))
+        return Arrays(x, value, np.concatenate(([0.0], np.cumsum(np.diff(x) * (value[1:] + value[:-1]) / 2))))
 
 
 class MassTable(StationTable):
@@ -129,25 +130,26 @@ class LoadTable(StationTable):
     value: tuple[Annotated[FiniteFloat, si("1/m")], ...]
 
 
-def _kind(value: Any) -> str:
-    return TABLE if isinstance(value, dict | StationTable) else NUMBER
+def form(value: Any) -> str:
+    """Tag of the form in which a field is given."""
+    return TABLE if isinstance(value, dict | Part) else PLAIN
 
 
 MassPerLength = Annotated[
-    Annotated[FiniteFloat, si("kg/m"), POSITIVE, Tag(NUMBER)] | Annotated[MassTable, Tag(TABLE)],
-    Discriminator(_kind),
+    Annotated[FiniteFloat, si("kg/m"), POSITIVE, Tag(PLAIN)] | Annotated[MassTable, Tag(TABLE)],
+    Discriminator(form),
 ]
 BendingStiffness = Annotated[
-    Annotated[FiniteFloat, si("N*m^2"), POSITIVE, Tag(NUMBER)] | Annotated[StiffnessTable, Tag(TABLE)],
-    Discriminator(_kind),
+    Annotated[FiniteFloat, si("N*m^2"), POSITIVE, Tag(PLAIN)] | Annotated[StiffnessTable, Tag(TABLE)],
+    Discriminator(form),
 ]
 FoundationStiffness = Annotated[
-    Annotated[FiniteFloat, si("N/m^2"), NOT_NEGATIVE, Tag(NUMBER)] | Annotated[FoundationTable, Tag(TABLE)],
-    Discriminator(_kind),
+    Annotated[FiniteFloat, si("N/m^2"), NOT_NEGATIVE, Tag(PLAIN)] | Annotated[FoundationTable, Tag(TABLE)],
+    Discriminator(form),
 ]
 LoadPerLength = Annotated[
-    Annotated[FiniteFloat, si("1/m"), Tag(NUMBER)] | Annotated[LoadTable, Tag(TABLE)],
-    Discriminator(_kind),
+    Annotated[FiniteFloat, si("1/m"), Tag(PLAIN)] | Annotated[LoadTable, Tag(TABLE)],
+    Discriminator(form),
 ]
 Property = float | StationTable
 

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from beal.vehicle.parts import Joint
+from beal.vehicle.parts import ElasticEnd, Joint
 from beal.vehicle.stations import Property, StationTable
 from beal.vehicle.vehicle import Vehicle
 
@@ -38,7 +38,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "mass": vehicle.mass,
         "centre_of_mass": vehicle.centre_of_mass,
         "moment_of_inertia": vehicle.moment_of_inertia,
-        "support": {"nose": vehicle.support.nose, "tail": vehicle.support.tail},
+        "support": {"nose": _end(vehicle.support.nose), "tail": _end(vehicle.support.tail)},
         "axial_force": vehicle.axial_force,
         "tangency": vehicle.thrust.tangency,
         "nominal_thrust": vehicle.thrust.nominal,
@@ -60,6 +60,7 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
             "mass": stage.mass,
             "mass_per_length": _property(stage.mass_per_length),
             "bending_stiffness": _property(stage.bending_stiffness),
+            "foundation_stiffness": _property(stage.foundation_stiffness),
         }
         for stage, start, end in ends
     ]
@@ -67,6 +68,12 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
 
 def _property(given: Property) -> float | dict[str, Any]:
     return given.model_dump() if isinstance(given, StationTable) else given
+
+
+def _end(end: str | ElasticEnd) -> str | dict[str, float | str]:
+    if isinstance(end, str):
+        return end
+    return {name: "rigid" if math.isinf(value) else value for name, value in end.model_dump().items()}
 
 
 def _joints(vehicle: Vehicle) -> list[dict[str, Any]]:

@@ -139,7 +139,12 @@ class Vehicle(Part):
     @property
     def free_free(self) -> bool:
         """Whether neither end is held."""
-        return self.support.nose == self.support.tail == "free"
+        return not any(stiffness for end in self.support.stiffness for stiffness in end)
+
+    @property
+    def founded(self) -> bool:
+        """Whether an elastic foundation holds any stage."""
+        return any(mean(stage.foundation_stiffness) for stage in self.stages)
 
     @property
     def axial_force(self) -> Literal["inertia", "constant"]:
