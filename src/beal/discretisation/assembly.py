@@ -12,6 +12,7 @@ from beal.discretisation.chain import held
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import gauss
 from beal.discretisation.quadrature import Points, quadrature
+from beal.vehicle.stations import values
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -71,9 +72,19 @@ def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, 
         bending = bending + _products(basis.deformations(), np.array([spring.stiffness for spring in basis.springs]))
     if samples.foundation:
         bending = bending + samples.foundation.matrix()
-    tail, tail_slope = (basis.stacked([len(chain) - 1], np.array([1.0]), d) for d in (0, 1))
-    follower = vehicle.thrust.tangency * (tail.T @ tail_slope)
-    return _mass(vehicle, basis, samples), bending, follower - geometric
+    return _mass(vehicle, basis, samples), bending, _follower(vehicle, basis, samples) - geometric
+
+
+def _follower(vehicle: Vehicle, basis: Basis, samples: "Samples") -> Rows:
+    """Work of the loads that turn with the tangent, and of those that do not move with the vehicle."""
+    thrust = vehicle.thrust
+    if thrust.station is None:
+        rows = [basis.stacked([len(basis.segments) - 1], np.array([1.0]), d) for d in (0, 1)]
+    else:
+        rows = [basis.at(np.array([thrust.station]), d) for d in (0, 1)]
+    deflection, slope = rows if thrust.line == "moving" else rows[::-1]
+    follower = (thrust.tangency * thrust.scale) * (deflection.T @ slope)
+    return follower + samples.load.matrix() if samples.load else follower
 
 
 def _products(rows: Rows, weights: Array) -> Rows:
@@ -83,29 +94,33 @@ def _products(rows: Rows, weights: Array) -> Rows:
 
 @dataclass(frozen=True)
 class Integral:
-    """The matrix sum of weight * row row^T, an integral over the vehicle by its terms."""
+    """The matrix sum of weight * row right^T, an integral over the vehicle by its terms; right is row if not given."""
 
     rows: Rows
     weights: Array
+    right: Rows | None = None
 
     def matrix(self) -> Rows:
-        return _products(self.rows, self.weights)
+        return self.rows.T @ ((self.rows if self.right is None else self.right) * self.weights[:, None])
 
     def combined(self, transformation: Array) -> "Integral":
-        return Integral(self.rows @ transformation, self.weights)
+        right = None if self.right is None else self.right @ transformation
+        return Integral(self.rows @ transformation, self.weights, right)
 
 
 @dataclass(frozen=True)
 class Samples:
-    """The integrals over the vehicle: m phi phi^T, EI phi'' phi''^T n phi' phi'^T, and k phi phi^T of a foundation."""
+    """The integrals over the vehicle: m phi phi^T, EI phi'' phi''^T n phi' phi'^T, k phi phi^T of a
+    foundation and p phi phi'^T of distributed loads."""
 
     mass: Integral
     bending: Integral
     axial: Integral
     foundation: Integral | None = None
+    load: Integral | None = None
 
     def combined(self, transformation: Array) -> "Samples":
-        integrals = (self.mass, self.bending, self.axial, self.foundation)
+        integrals = (self.mass, self.bending, self.axial, self.foundation, self.load)
         return Samples(*(each and each.combined(transformation) for each in integrals))
 
 
@@ -113,31 +128,46 @@ def sample(vehicle: Vehicle, basis: Basis) -> Samples:
     """A basis and the vehicle's properties at the points of the integrals."""
     points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
     integral = _compressed if basis.pieces else _at_points
+    load = np.zeros(len(points.station))
+    for part in vehicle.distributed_thrusts:
+        load += part.tangency * values(part.value, points.station)
     return Samples(
         mass=integral(basis, points, 0, points.property("mass_per_length")),
         bending=integral(basis, points, 2, points.property("bending_stiffness")),
         axial=integral(basis, points, 1, axial_force(vehicle, points.station)),
         foundation=integral(basis, points, 0, points.property("foundation_stiffness")) if vehicle.founded else None,
+        load=integral(basis, points, 0, load, 1) if vehicle.distributed_thrusts else None,
     )
 
 
-def _at_points(basis: Basis, points: Points, derivative: int, density: Array) -> Integral:
-    rows = basis.stacked(range(len(basis.segments)), gauss(basis.quadrature)[0], derivative)
-    return Integral(rows, points.weight * density)
+def _at_points(
+    basis: Basis, points: Points, derivative: int, density: Array, right: int | None = None
+) -> Integral:
+    xi = gauss(basis.quadrature)[0]
+    rows = [None if d is None else basis.stacked(range(len(basis.segments)), xi, d) for d in (derivative, right)]
+    return Integral(rows[0], points.weight * density, rows[1])
 
 
-def _compressed(basis: Basis, points: Points, derivative: int, density: Array) -> Integral:
+def _compressed(
+    basis: Basis, points: Points, derivative: int, density: Array, right: int | None = None
+) -> Integral:
     """As many terms for each segment as shapes live there, however many pieces it has."""
     ends = np.searchsorted(points.segment, np.arange(len(basis.segments) + 1))
     weighted = points.weight * density
-    rows, weights = [], []
+    rows, weights, rights = [], [], []
     for segment, (a, b) in enumerate(zip(ends, ends[1:], strict=False)):
         local = basis.at_points(segment, derivative)
-        principal, directions = np.linalg.eigh(local.T @ (local * weighted[a:b, None]))
-        rows.append(basis.expanded(segment, directions.T))
+        if right is None:
+            principal, directions = np.linalg.eigh(local.T @ (local * weighted[a:b, None]))
+            rows.append(basis.expanded(segment, directions.T))
+        else:
+            beside = basis.at_points(segment, right)
+            left, principal, across = np.linalg.svd(local.T @ (beside * weighted[a:b, None]))
+            rows.append(basis.expanded(segment, left.T))
+            rights.append(basis.expanded(segment, across))
         weights.append(principal)
     stack = np.vstack if isinstance(rows[0], np.ndarray) else vstack
-    return Integral(stack(rows), np.concatenate(weights))
+    return Integral(stack(rows), np.concatenate(weights), stack(rights) if rights else None)
 
 
 def _mass(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:

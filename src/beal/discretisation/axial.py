@@ -1,13 +1,13 @@
 """Axial force per thrust, n(x) = N(x)/P, compression positive.
 
 d'Alembert for a vehicle in flight: the share of the mass forward of x (Wu 1975; Irani & Kavianipour 2009, Eq. (3), for
-uniform stages). Constant where the nose takes the reaction.
+uniform stages), less what acts there itself. Where the nose takes the reaction, all that acts aft of x.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from beal.vehicle.stations import integral
+from beal.vehicle.stations import StationTable, integral, mean
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -15,34 +15,53 @@ SAME = 1e-12  # share of the length within which a mass sits at a joint, as in V
 
 
 def axial_force(vehicle: Vehicle, stations: Array) -> Array:
-    """n at stations, in any shape; at a point mass the value just aft of it."""
+    """n at stations, in any shape; at a point mass or a thrust the value just aft of it."""
+    at = vehicle.thrust.station
+    applied = _distributed_forward(vehicle, stations)
+    if at is not None and at < vehicle.length:
+        applied = applied + np.where(stations >= at, vehicle.thrust.scale, 0.0)
     if vehicle.axial_force == "constant":
-        return np.ones_like(stations)
+        return np.asarray(_total(vehicle) - applied)
     forward = np.interp(stations, vehicle.boundaries, _stages_forward(vehicle))
     for n, stage in enumerate(vehicle.stages):
-        if "mass_per_length" in stage.tables:
+        if isinstance(stage.mass_per_length, StationTable):
             front, back = vehicle.boundaries[n : n + 2]
             here = (stations >= front) & (stations <= back)
-            inside = integral(stage.mass_per_length, stations[here] - front)
-            forward[here] = _stages_forward(vehicle)[n] + inside
+            forward[here] = _stages_forward(vehicle)[n] + stage.mass_per_length.integral(stations[here] - front)
     if vehicle.point_masses:
         lumps = sorted((lump.station, lump.mass) for lump in vehicle.point_masses)
         fore = np.cumsum([0.0] + [mass for _, mass in lumps])
         forward = forward + fore[np.searchsorted([station for station, _ in lumps], stations, side="right")]
-    return np.asarray(forward / vehicle.mass)
+    return np.asarray(forward * (_total(vehicle) / vehicle.mass) - applied)
 
 
 def axial_force_in_joints(vehicle: Vehicle) -> Array:
-    """n in every joint, shape (joints,); a point mass at a joint sits on the aft face and does not press on it."""
+    """n in every joint, shape (joints,); what acts at a joint sits on the aft face and does not press on it."""
+    stations = np.array(vehicle.boundaries[1:-1])
+    applied = _distributed_forward(vehicle, stations)
+    if vehicle.thrust.station is not None:
+        applied = applied + np.where(stations > vehicle.thrust.station + SAME * vehicle.length, vehicle.thrust.scale, 0)
     if vehicle.axial_force == "constant":
-        return np.ones(len(vehicle.joints))
+        return np.asarray(_total(vehicle) - applied)
     forward = _stages_forward(vehicle)[1:-1]
     if vehicle.point_masses:
         snapped = np.array([lump.station for lump in vehicle.point_masses]) + SAME * vehicle.length
         stages = np.searchsorted(vehicle.boundaries[1:-1], snapped, side="right")
         lumps = np.bincount(stages, [lump.mass for lump in vehicle.point_masses], len(vehicle.stages))
         forward = forward + np.cumsum(lumps)[:-1]
-    return np.asarray(forward / vehicle.mass)
+    return np.asarray(forward * (_total(vehicle) / vehicle.mass) - applied)
+
+
+def _total(vehicle: Vehicle) -> float:
+    """All loads along the axis over P."""
+    distributed = sum(vehicle.length * mean(load.value) for load in vehicle.distributed_thrusts)
+    return vehicle.thrust.scale + distributed
+
+
+def _distributed_forward(vehicle: Vehicle, stations: Array) -> Array:
+    """The part of the distributed loads that acts forward of stations, over P."""
+    loads = (integral(load.value, stations) for load in vehicle.distributed_thrusts)
+    return sum(loads, np.zeros(np.shape(stations)))
 
 
 def _stages_forward(vehicle: Vehicle) -> Array:

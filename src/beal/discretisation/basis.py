@@ -2,14 +2,15 @@
 
 from abc import ABC, abstractmethod
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from beal.discretisation.cuts import FEW, cuts
+from beal.discretisation.cuts import FEW, bends, cuts
+from beal.vehicle.stations import StationTable
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -35,13 +36,13 @@ class Segment:
 
 
 def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment, ...]:
-    """Stretches of the stages between point masses and force stations, each cut into equal ``pieces``.
+    """Stretches of the stages between point masses, forces and steps or kinks of distributed loads, each cut into equal ``pieces``.
 
     A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
     So do kinks and steps of the stages' properties; of ``few`` segments at most for each stage, the lesser ones lie
     inside.
     """
-    loads = sorted([lump.station for lump in vehicle.point_masses] + [force.station for force in vehicle.forces])
+    loads = sorted(_loaded(vehicle))
     margin = SNAP * vehicle.length
     chain = []
     for stage, (front, back) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False)):
@@ -57,6 +58,17 @@ def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment
             parts = np.linspace(a, b, pieces + 1)
             chain += [Segment(stage, float(x), float(y - x)) for x, y in zip(parts, parts[1:], strict=False)]
     return tuple(chain)
+
+
+def _loaded(vehicle: Vehicle) -> Iterator[float]:
+    """Stations where a load sets in or changes its course."""
+    for part in (*vehicle.point_masses, *vehicle.forces):
+        yield part.station
+    if vehicle.thrust.station is not None:
+        yield vehicle.thrust.station
+    for load in vehicle.distributed_thrusts:
+        if isinstance(load.value, StationTable):
+            yield from bends(load.value)[0].tolist()
 
 
 class Basis(ABC):

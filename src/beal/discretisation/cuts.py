@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.vehicle.parts import Stage
+from beal.vehicle.stations import StationTable
 
 Array = NDArray[np.float64]
 
@@ -13,6 +14,8 @@ FEW = 11  # segments of a stage in dense matrices, at most
 ALL = 1_000_000
 # A step of relative height s inside a segment of length h leaves an error of some s^2 (h/L)^4 n^-5 in the critical
 # thrust, a kink by the relative slope k one of (k h)^2 (h/L)^4 n^-7; n = 8 at the least.
+LEAST = 1e-3  # share of a table's largest value that others are measured by at least
+STRAIGHT = 1e-9  # relative change that is rounding
 STEP_TO_KINK = 30.0
 NOTICED = 1e-6  # (h/L)^4 (kinks + STEP_TO_KINK steps), which is some 1e-12 of the thrust
 
@@ -63,19 +66,22 @@ def _worst(
 
 
 def _bends(stage: Stage) -> tuple[Array, Array, Array]:
-    """Stations inside the stage, relative changes of slope there [1/m], and relative steps; the largest of any table."""
-    found: dict[float, tuple[float, float]] = {}
-    for table in stage.tables.values():
-        x, value = np.array(table.x), np.array(table.value)
-        first = np.flatnonzero(np.append(True, np.diff(x) > 0))  # of a station given twice
-        last = np.append(first[1:], len(x)) - 1
-        slope = (value[first[1:]] - value[last[:-1]]) / np.diff(x[first])
-        size = np.maximum(np.abs(value[first]), np.abs(value[last]))[1:-1]
-        size = np.maximum(size, 1e-3 * np.abs(value).max())
-        bends = zip(x[first][1:-1], np.abs(np.diff(slope)) / size, np.abs(value[last] - value[first])[1:-1] / size)
-        for station, kink, step in bends:
-            before = found.get(float(station), (0.0, 0.0))
-            found[float(station)] = (max(float(kink), before[0]), max(float(step), before[1]))
-    stations = np.array(sorted(found))
-    kinks, steps = np.array([found[x] for x in stations.tolist()]).reshape(-1, 2).T
-    return stations, kinks, steps
+    """Stations inside the stage with what bends there, of all its tables."""
+    each = [bends(table) for table in stage.tables.values()]
+    stations, kinks, steps = (np.concatenate(parts) for parts in zip(*each, strict=True))
+    order = np.argsort(stations)
+    return stations[order], kinks[order], steps[order]
+
+
+def bends(table: StationTable) -> tuple[Array, Array, Array]:
+    """Stations inside a table where it bends, the relative changes of slope there [1/m], and relative steps."""
+    x, value = table.arrays.x, table.arrays.value
+    first = np.flatnonzero(np.append(True, np.diff(x) > 0))  # of a station given twice
+    last = np.append(first[1:], len(x)) - 1
+    slope = (value[first[1:]] - value[last[:-1]]) / np.diff(x[first])
+    size = np.maximum(np.abs(value[first]), np.abs(value[last]))[1:-1]
+    size = np.maximum(size, LEAST * np.abs(value).max())
+    kinks = np.abs(np.diff(slope)) / size
+    steps = np.abs(value[last] - value[first])[1:-1] / size
+    found = (kinks * x[-1] > STRAIGHT) | (steps > STRAIGHT)
+    return x[first][1:-1][found], kinks[found], steps[found]

@@ -22,7 +22,9 @@ def default_limit(vehicle: Vehicle) -> float:
     integral of sqrt(N/EI) dx = 5 pi, with N = P n(x).
     """
     points = _points(vehicle)
-    phase = float(points.weight @ np.sqrt(axial_force(vehicle, points.station) / points.property("bending_stiffness")))
+    stiffness = points.property("bending_stiffness")
+    phase = float(points.weight @ np.sqrt(np.abs(axial_force(vehicle, points.station)) / stiffness))
+    phase = phase or float(points.weight @ np.sqrt(1 / stiffness))  # a thrust at the nose that holds it
     return (HALF_WAVES * math.pi / phase) ** 2
 
 

@@ -13,10 +13,12 @@ from beal.vehicle.stations import (
     POSITIVE,
     BendingStiffness,
     FoundationStiffness,
+    LoadPerLength,
     MassPerLength,
     Property,
     StationTable,
     form,
+    misfit,
 )
 
 LARGEST = sys.float_info.max
@@ -59,8 +61,8 @@ class Stage(Part):
     @model_validator(mode="after")
     def _tables_reach_its_end(self) -> "Stage":
         for name, table in self.tables.items():
-            if wrong := table.reaching(self.length, (name,)):
-                raise wrong
+            if wrong := table.misfit(self.length):
+                raise misfit((name, "x"), wrong, table.x[-1])
         return self
 
     @cached_property
@@ -161,22 +163,48 @@ class Support(Part):
 
 
 class Thrust(Part):
-    """The thrust P at the tail and the axial force that it causes.
+    """The thrust P, where it acts, and the axial force that it causes.
 
     Parameters
     ----------
     tangency : float
         eta: 1 for a follower force, 0 for a force fixed in space.
+    scale : float
+        Share of P that acts here; 0 leaves the distributed thrusts alone.
+    station : float, optional
+        Where it acts, in m from the nose; by default at the tail.
+    line : {"moving", "fixed"}
+        ``moving``: the line of action goes through the station and turns with the tangent by ``tangency``. ``fixed``:
+        it stays the axis of the undeformed vehicle, as on a rigid plate under a fixed jet (Reut's column); the moment
+        about the station is then ``tangency`` times that of the whole offset.
     axial_force : {"inertia", "constant"}, optional
         ``inertia``: N(x) = P times the share of the mass forward of x (a vehicle in flight); ``constant``: N = P
-        (the nose takes the reaction). By default the first for a free-free vehicle, the second for a supported one.
+        forward of where it acts (the nose takes the reaction). By default the first for a free-free vehicle, the second for a supported one.
     nominal : float, optional
         The thrust of normal operation, in N, used for margins and responses.
     """
 
     tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
+    scale: Annotated[FiniteFloat, si(""), NOT_NEGATIVE] = 1.0
+    station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE] | None = None
+    line: Literal["moving", "fixed"] = "moving"
     axial_force: Literal["inertia", "constant"] | None = None
     nominal: Annotated[FiniteFloat, si("N"), POSITIVE] | None = None
+
+
+class DistributedThrust(Part):
+    """A tangential load along the vehicle, towards the nose, that grows with the thrust P (Leipholz, Hauger).
+
+    Parameters
+    ----------
+    value : float or table
+        Load per length over P, in 1/m; x counts from the nose to the tail.
+    tangency : float
+        1 for a load that follows the tangents, 0 for one fixed in space.
+    """
+
+    value: LoadPerLength
+    tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
 
 
 class Sensor(Part):

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from beal.errors import ModelError
 from beal.vehicle.base import Part, problems
+from beal.vehicle.stations import StationTable
 from beal.vehicle.vehicle import Vehicle, metres
 
 SPLIT = "stage.split"
@@ -84,8 +85,8 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     vehicle : Vehicle
     values : mapping of path to number
         ``stage.split`` moves the first joint and keeps the total length of the first two stages; the stations of
-        masses, sensors and forces stay; lengths given beside it are set first. The tables of a stage whose length
-        changes are stretched with it. In SI, text with a unit is accepted as in the model file.
+        masses, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the lengths
+        that they describe. In SI, text with a unit is accepted as in the model file.
 
     Returns
     -------
@@ -117,13 +118,26 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
         stages = tree.setdefault("stages", {})
         stages.setdefault(0, {})["length"] = first
         stages.setdefault(1, {})["length"] = second
-    for index, branch in tree.get("stages", {}).items():
-        if (length := metres(branch, "length")) > 0:
-            branch |= {name: table.stretched(length) for name, table in vehicle.stages[index].tables.items()}
+    _stretch(vehicle, tree)
     try:
         return Vehicle.model_validate(_merged(vehicle, tree), context={"units": vehicle.units})
     except ValidationError as error:
         raise ModelError(problems(error, Vehicle)) from None
+
+
+def _stretch(vehicle: Vehicle, tree: dict[str | int, Any]) -> None:
+    """Tables follow the lengths of what they describe."""
+    total = 0.0
+    for index, stage in enumerate(vehicle.stages):
+        branch = tree.get("stages", {}).get(index, {})
+        length = metres(branch, "length") if "length" in branch else stage.length
+        total += length
+        if length > 0 and length != stage.length:
+            branch |= {name: table.stretched(length) for name, table in stage.tables.items()}
+    for index, load in enumerate(vehicle.distributed_thrusts):
+        if isinstance(load.value, StationTable) and load.value.misfit(total) and total > 0:
+            loads = tree.setdefault("distributed_thrusts", {})
+            loads.setdefault(index, {})["value"] = load.value.stretched(total)
 
 
 def _split(vehicle: Vehicle, share: float | str) -> tuple[float, float]:

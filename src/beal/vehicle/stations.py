@@ -49,23 +49,23 @@ class StationTable(Part):
     def _is_ordered(self) -> "StationTable":
         x = self.x
         if len(x) != len(self.value):
-            raise _misfit((), f"x and value must be equally long, found {len(x)} and {len(self.value)}", len(x))
+            raise misfit((), f"x and value must be equally long, found {len(x)} and {len(self.value)}", len(x))
         if len(x) < 2:
-            raise _misfit(("x",), f"must have at least two stations, found {len(x)}", len(x))
+            raise misfit(("x",), f"must have at least two stations, found {len(x)}", len(x))
         if x[0] != 0:
-            raise _misfit(("x", 0), f"must be 0, the front, found {x[0]:.12g}", x[0])
+            raise misfit(("x", 0), f"must be 0, the front, found {x[0]:.12g}", x[0])
         for n in range(1, len(x)):
             if x[n] < x[n - 1]:
-                raise _misfit(("x", n), f"must not be below the one before, {x[n - 1]:.12g}, found {x[n]:.12g}", x[n])
+                raise misfit(("x", n), f"must not be below the one before, {x[n - 1]:.12g}, found {x[n]:.12g}", x[n])
             if x[n] == x[n - 1] and (x[n] == x[max(n - 2, 0)] or x[n] == x[-1]):
-                raise _misfit(("x", n), f"may come twice, inside the table, for a step; found {x[n]:.12g} again", x[n])
+                raise misfit(("x", n), f"may come twice, inside the table, for a step; found {x[n]:.12g} again", x[n])
         return self
 
-    def reaching(self, length: float, where: tuple[str | int, ...]) -> "ValidationError | None":
-        """What is wrong with the table for something of this length, if anything is."""
+    def misfit(self, length: float) -> str:
+        """What is wrong with the stations for something of this length, empty if they suit it."""
         if abs(self.x[-1] - length) <= REACH * length:
-            return None
-        return _misfit((*where, "x"), f"must end at the length, {length:.12g}, found {self.x[-1]:.12g}", self.x[-1])
+            return ""
+        return f"must end at the length, {length:.12g}, found {self.x[-1]:.12g}"
 
     def stretched(self, length: float) -> "StationTable":
         """The same values over another length."""
@@ -169,7 +169,7 @@ def mean(given: Property) -> float:
     return given.mean if isinstance(given, StationTable) else given
 
 
-def _misfit(location: tuple[str | int, ...], message: str, value: Any) -> ValidationError:
+def misfit(location: tuple[str | int, ...], message: str, value: Any) -> ValidationError:
     """An error that keeps its place, however deep the part is nested."""
     detail: InitErrorDetails = {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}  # type: ignore[arg-type]
     return ValidationError.from_exception_data("table", [detail])

@@ -41,6 +41,8 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "support": {"nose": _end(vehicle.support.nose), "tail": _end(vehicle.support.tail)},
         "axial_force": vehicle.axial_force,
         "tangency": vehicle.thrust.tangency,
+        "thrust_station": vehicle.length if vehicle.thrust.station is None else vehicle.thrust.station,
+        "thrust_scale_at_station": vehicle.thrust.scale,
         "nominal_thrust": vehicle.thrust.nominal,
         "stages": _stages(vehicle),
         "joints": _joints(vehicle),

@@ -12,8 +12,8 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beal.units import to_si
 from beal.vehicle.base import Part
-from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
-from beal.vehicle.stations import mean
+from beal.vehicle.parts import DistributedThrust, Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
+from beal.vehicle.stations import StationTable, mean
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,7 @@ class Vehicle(Part):
     point_masses : sequence of PointMass
     support : Support
     thrust : Thrust
+    distributed_thrusts : sequence of DistributedThrust
     sensors : sequence of Sensor
     forces : sequence of Force
     title : str
@@ -80,6 +81,7 @@ class Vehicle(Part):
     point_masses: tuple[PointMass, ...] = Field(alias="point_mass", default=())
     support: Support = Support()
     thrust: Thrust = Thrust()
+    distributed_thrusts: tuple[DistributedThrust, ...] = Field(alias="distributed_thrust", default=())
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
 
@@ -96,6 +98,8 @@ class Vehicle(Part):
         else:
             parts = vehicle.__dict__
         errors += [_detail(*problem) for problem in _misfits(parts)]
+        if not errors:
+            errors = [_detail(*problem) for problem in vehicle._unsuited_loads()]
         if not errors and not vehicle._in_range():
             message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
             errors.append(_detail(("stage",), message, vehicle.length))
@@ -157,6 +161,13 @@ class Vehicle(Part):
         first = self.stages[0]
         return Scales(self.length, mean(first.mass_per_length), mean(first.bending_stiffness))
 
+    def _unsuited_loads(self) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+        for index, load in enumerate(self.distributed_thrusts):
+            if isinstance(load.value, StationTable) and (wrong := load.value.misfit(self.length)):
+                yield ("distributed_thrust", index, "value", "x"), wrong, load.value.x[-1]
+        if not self.thrust.scale and not self.distributed_thrusts:
+            yield ("thrust", "scale"), "must be positive where there is no distributed thrust, found 0", 0.0
+
     def _in_range(self) -> bool:
         try:
             values = (self.scales.thrust, self.scales.time, self.mass * self.length**2)
@@ -190,6 +201,10 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
             if station > total * (1 + 1e-12):
                 message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
                 yield (alias, index, "station"), message, station
+    station = metres(_field(data, "thrust"), "station")
+    if station > total * (1 + 1e-12):
+        message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
+        yield ("thrust", "station"), message, station
     names = [_field(sensor, "name") for sensor in _parts(data, "sensor", "sensors")]
     for index, name in enumerate(names):
         if isinstance(name, str) and name in names[:index]:
