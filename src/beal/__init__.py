@@ -21,15 +21,29 @@ if _typing.TYPE_CHECKING:
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
     from beal.vehicle.file import dumps, load, loads
-    from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
+    from beal.vehicle.parts import (
+        AxialLoad,
+        DistributedThrust,
+        ElasticEnd,
+        Force,
+        Joint,
+        PointMass,
+        Sensor,
+        Stage,
+        Support,
+        Thrust,
+    )
     from beal.vehicle.vehicle import Vehicle
 
 __version__ = _version("beal")
 
 _HOMES = {
+    "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
     "ConvergenceError": "beal.errors",
     "CriticalThrust": "beal.stability.critical",
+    "DistributedThrust": "beal.vehicle.parts",
+    "ElasticEnd": "beal.vehicle.parts",
     "Event": "beal.stability.complete",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
@@ -65,9 +79,12 @@ _HOMES = {
 }
 
 __all__ = [
+    "AxialLoad",
     "BealError",
     "ConvergenceError",
     "CriticalThrust",
+    "DistributedThrust",
+    "ElasticEnd",
     "Event",
     "Force",
     "Joint",

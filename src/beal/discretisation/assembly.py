@@ -1,18 +1,16 @@
 """Energies and virtual work as matrices, for any basis (the theory's section on energies, term by term)."""
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import vstack
+from numpy.typing import NDArray
 
-from beal.discretisation.axial import axial_force, axial_force_in_joints
+from beal.discretisation.axial import axial_force_in_joints, dead_axial_force_in_joints
 from beal.discretisation.basis import Array, Basis, Combined, Rows
 from beal.discretisation.chain import held
 from beal.discretisation.operators import Operators
-from beal.discretisation.polynomials import gauss
-from beal.discretisation.quadrature import Points, quadrature
-from beal.vehicle.stations import values
+from beal.discretisation.samples import Integral, Samples, products, sample
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -23,8 +21,8 @@ def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: 
         K0 = int (EI phi'' phi''^T + k_f phi phi^T) dx + sum (k_r [[phi']] [[phi']]^T + k_s [[phi]] [[phi]]^T)
         K1 = - int n phi' phi'^T dx - sum n_j ([[phi]] sigma^T + sigma [[phi]]^T) + eta phi(L) phi'(L)^T
 
-    with n = N/P, and springs to the ground in K0 as those of joints. Supports are imposed exactly and the rigid-body motions that they leave are made M-orthogonal to the
-    elastic coordinates.
+    with n = N/P, and springs to the ground in K0 as those of joints. Dead loads make a matrix like K1. Supports are
+    imposed exactly and the rigid-body motions that they leave are made M-orthogonal to the elastic coordinates.
 
     Parameters
     ----------
@@ -46,36 +44,58 @@ def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: 
         samples = samples.combined(transformation)
     else:
         rigid = 0
-    mass, bending, load = energies(vehicle, basis, samples)
+    mass, bending, load, dead = energies(vehicle, basis, samples)
     bending[:rigid] = bending[:, :rigid] = 0.0
-    return Operators(vehicle, mass, bending, load, rigid, basis)
+    return Operators(vehicle, mass, bending, load, rigid, basis, dead)
 
 
-def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, Rows, Rows]:
-    """M, K0 and K1 in the coordinates of a basis: dense or sparse, as its rows are."""
+def energies(vehicle: Vehicle, basis: Basis, samples: Samples) -> tuple[Rows, Rows, Rows, Rows | None]:
+    """M, K0, K1 and the stiffness of dead loads, if there are any, in a basis: dense or sparse, as its rows are."""
     bending, geometric = samples.bending.matrix(), samples.axial.matrix()
-    chain = basis.segments
-    fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
     for derivative, name in ((0, "shear_stiffness"), (1, "rotational_stiffness")):
-        springs = np.array([getattr(joint, name) for joint in vehicle.joints])
-        flexible = np.flatnonzero(np.isfinite(springs))
-        if not len(flexible):
-            continue
-        aft = [fronts[joint] for joint in flexible]
-        jumps = basis.jumps(aft, derivative)
-        bending = bending + _products(jumps, springs[flexible])
-        if derivative == 0:
-            axes = _shear_axes(basis, aft, [vehicle.joints[joint].shear_axis for joint in flexible])
-            couples = jumps.T @ (axes * axial_force_in_joints(vehicle)[flexible, None])
-            geometric = geometric + couples + couples.T
+        aft, flexible = _flexible(vehicle, basis, name)
+        if aft:
+            springs = np.array([getattr(joint, name) for joint in vehicle.joints])
+            bending = bending + products(basis.jumps(aft, derivative), springs[flexible])
+    geometric = geometric + _couples(vehicle, basis, axial_force_in_joints(vehicle))
     if basis.springs:
-        bending = bending + _products(basis.deformations(), np.array([spring.stiffness for spring in basis.springs]))
+        bending = bending + products(basis.deformations(), np.array([spring.stiffness for spring in basis.springs]))
     if samples.foundation:
         bending = bending + samples.foundation.matrix()
-    return _mass(vehicle, basis, samples), bending, _follower(vehicle, basis, samples) - geometric
+    dead = _dead_loads(vehicle, basis, samples.dead) if samples.dead else None
+    return _mass(vehicle, basis, samples), bending, _follower(vehicle, basis, samples) - geometric, dead
 
 
-def _follower(vehicle: Vehicle, basis: Basis, samples: "Samples") -> Rows:
+def _dead_loads(vehicle: Vehicle, basis: Basis, axial: Integral) -> Rows:
+    """Stiffness of the loads that do not grow with the thrust."""
+    stiffness = -axial.matrix() - _couples(vehicle, basis, dead_axial_force_in_joints(vehicle))
+    stations = np.array([load.station for load in vehicle.axial_loads])
+    if len(stations):
+        follower = np.array([load.tangency * load.force for load in vehicle.axial_loads])
+        deflection, slope = (basis.at(stations, derivative) for derivative in (0, 1))
+        stiffness = stiffness + deflection.T @ (slope * follower[:, None])
+    return stiffness
+
+
+def _flexible(vehicle: Vehicle, basis: Basis, name: str) -> tuple[list[int], NDArray[np.intp]]:
+    """The segments aft of the joints of finite stiffness, and the joints' numbers."""
+    flexible = np.flatnonzero([math.isfinite(getattr(joint, name)) for joint in vehicle.joints])
+    chain = basis.segments
+    fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
+    return [fronts[joint] for joint in flexible], flexible
+
+
+def _couples(vehicle: Vehicle, basis: Basis, forces: Array) -> Rows | float:
+    """Work of the axial forces through sheared joints."""
+    aft, flexible = _flexible(vehicle, basis, "shear_stiffness")
+    if not aft:
+        return 0.0
+    axes = _shear_axes(basis, aft, [vehicle.joints[joint].shear_axis for joint in flexible])
+    couples = basis.jumps(aft, 0).T @ (axes * forces[flexible, None])
+    return couples + couples.T
+
+
+def _follower(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:
     """Work of the loads that turn with the tangent, and of those that do not move with the vehicle."""
     thrust = vehicle.thrust
     if thrust.station is None:
@@ -87,96 +107,13 @@ def _follower(vehicle: Vehicle, basis: Basis, samples: "Samples") -> Rows:
     return follower + samples.load.matrix() if samples.load else follower
 
 
-def _products(rows: Rows, weights: Array) -> Rows:
-    """Sum of weight * row row^T."""
-    return rows.T @ (rows * weights[:, None])
-
-
-@dataclass(frozen=True)
-class Integral:
-    """The matrix sum of weight * row right^T, an integral over the vehicle by its terms; right is row if not given."""
-
-    rows: Rows
-    weights: Array
-    right: Rows | None = None
-
-    def matrix(self) -> Rows:
-        return self.rows.T @ ((self.rows if self.right is None else self.right) * self.weights[:, None])
-
-    def combined(self, transformation: Array) -> "Integral":
-        right = None if self.right is None else self.right @ transformation
-        return Integral(self.rows @ transformation, self.weights, right)
-
-
-@dataclass(frozen=True)
-class Samples:
-    """The integrals over the vehicle: m phi phi^T, EI phi'' phi''^T n phi' phi'^T, k phi phi^T of a
-    foundation and p phi phi'^T of distributed loads."""
-
-    mass: Integral
-    bending: Integral
-    axial: Integral
-    foundation: Integral | None = None
-    load: Integral | None = None
-
-    def combined(self, transformation: Array) -> "Samples":
-        integrals = (self.mass, self.bending, self.axial, self.foundation, self.load)
-        return Samples(*(each and each.combined(transformation) for each in integrals))
-
-
-def sample(vehicle: Vehicle, basis: Basis) -> Samples:
-    """A basis and the vehicle's properties at the points of the integrals."""
-    points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
-    integral = _compressed if basis.pieces else _at_points
-    load = np.zeros(len(points.station))
-    for part in vehicle.distributed_thrusts:
-        load += part.tangency * values(part.value, points.station)
-    return Samples(
-        mass=integral(basis, points, 0, points.property("mass_per_length")),
-        bending=integral(basis, points, 2, points.property("bending_stiffness")),
-        axial=integral(basis, points, 1, axial_force(vehicle, points.station)),
-        foundation=integral(basis, points, 0, points.property("foundation_stiffness")) if vehicle.founded else None,
-        load=integral(basis, points, 0, load, 1) if vehicle.distributed_thrusts else None,
-    )
-
-
-def _at_points(
-    basis: Basis, points: Points, derivative: int, density: Array, right: int | None = None
-) -> Integral:
-    xi = gauss(basis.quadrature)[0]
-    rows = [None if d is None else basis.stacked(range(len(basis.segments)), xi, d) for d in (derivative, right)]
-    return Integral(rows[0], points.weight * density, rows[1])
-
-
-def _compressed(
-    basis: Basis, points: Points, derivative: int, density: Array, right: int | None = None
-) -> Integral:
-    """As many terms for each segment as shapes live there, however many pieces it has."""
-    ends = np.searchsorted(points.segment, np.arange(len(basis.segments) + 1))
-    weighted = points.weight * density
-    rows, weights, rights = [], [], []
-    for segment, (a, b) in enumerate(zip(ends, ends[1:], strict=False)):
-        local = basis.at_points(segment, derivative)
-        if right is None:
-            principal, directions = np.linalg.eigh(local.T @ (local * weighted[a:b, None]))
-            rows.append(basis.expanded(segment, directions.T))
-        else:
-            beside = basis.at_points(segment, right)
-            left, principal, across = np.linalg.svd(local.T @ (beside * weighted[a:b, None]))
-            rows.append(basis.expanded(segment, left.T))
-            rights.append(basis.expanded(segment, across))
-        weights.append(principal)
-    stack = np.vstack if isinstance(rows[0], np.ndarray) else vstack
-    return Integral(stack(rows), np.concatenate(weights), stack(rights) if rights else None)
-
-
 def _mass(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:
     mass = samples.mass.matrix()
     if vehicle.point_masses:
         stations = np.array([lump.station for lump in vehicle.point_masses])
         for derivative, name in ((0, "mass"), (1, "rotary_inertia")):
             inertia = np.array([getattr(lump, name) for lump in vehicle.point_masses])
-            mass = mass + _products(basis.at(stations, derivative), inertia)
+            mass = mass + products(basis.at(stations, derivative), inertia)
     return mass
 
 

@@ -21,7 +21,56 @@ def axial_force(vehicle: Vehicle, stations: Array) -> Array:
     if at is not None and at < vehicle.length:
         applied = applied + np.where(stations >= at, vehicle.thrust.scale, 0.0)
     if vehicle.axial_force == "constant":
-        return np.asarray(_total(vehicle) - applied)
+        return np.full(stations.shape, _total(vehicle)) - applied
+    return np.asarray(_mass_forward(vehicle, stations) * (_total(vehicle) / vehicle.mass) - applied)
+
+
+def axial_force_in_joints(vehicle: Vehicle) -> Array:
+    """n in every joint, shape (joints,); what acts at a joint sits on the aft face and does not press on it."""
+    stations = np.array(vehicle.boundaries[1:-1])
+    applied = _distributed_forward(vehicle, stations)
+    if vehicle.thrust.station is not None:
+        applied = applied + np.where(stations > vehicle.thrust.station + SAME * vehicle.length, vehicle.thrust.scale, 0)
+    if vehicle.axial_force == "constant":
+        return np.full(stations.shape, _total(vehicle)) - applied
+    return np.asarray(_mass_forward_of_joints(vehicle) * (_total(vehicle) / vehicle.mass) - applied)
+
+
+def has_dead_loads(vehicle: Vehicle) -> bool:
+    """Whether loads that do not grow with the thrust press on the vehicle."""
+    return bool(vehicle.axial_loads) or (vehicle.gravity != 0 and vehicle.axial_force == "constant")
+
+
+def dead_axial_force(vehicle: Vehicle, stations: Array) -> Array:
+    """Axial force of the dead loads at stations, in N, in any shape."""
+    applied = _axial_loads_forward(vehicle, stations)
+    return _dead(vehicle, applied, _mass_forward(vehicle, stations))
+
+
+def dead_axial_force_in_joints(vehicle: Vehicle) -> Array:
+    """The same in every joint, shape (joints,)."""
+    applied = _axial_loads_forward(vehicle, np.array(vehicle.boundaries[1:-1]) - SAME * vehicle.length)
+    return _dead(vehicle, applied, _mass_forward_of_joints(vehicle))
+
+
+def _axial_loads_forward(vehicle: Vehicle, stations: Array) -> Array:
+    applied = np.zeros(stations.shape)
+    for load in vehicle.axial_loads:
+        applied += load.force * (stations >= load.station)
+    return applied
+
+
+def _dead(vehicle: Vehicle, applied: Array, mass_forward: Array) -> Array:
+    """From what acts forward of stations: borne by inertia, by the nose, or by the tail where it alone is held."""
+    total = sum(load.force for load in vehicle.axial_loads)
+    if vehicle.axial_force == "inertia":
+        return np.asarray(total / vehicle.mass * mass_forward - applied)
+    applied = applied - vehicle.gravity * mass_forward
+    nose, tail = (any(end) for end in vehicle.support.stiffness)
+    return np.asarray((0.0 if tail and not nose else total - vehicle.gravity * vehicle.mass) - applied)
+
+
+def _mass_forward(vehicle: Vehicle, stations: Array) -> Array:
     forward = np.interp(stations, vehicle.boundaries, _stages_forward(vehicle))
     for n, stage in enumerate(vehicle.stages):
         if isinstance(stage.mass_per_length, StationTable):
@@ -32,24 +81,17 @@ def axial_force(vehicle: Vehicle, stations: Array) -> Array:
         lumps = sorted((lump.station, lump.mass) for lump in vehicle.point_masses)
         fore = np.cumsum([0.0] + [mass for _, mass in lumps])
         forward = forward + fore[np.searchsorted([station for station, _ in lumps], stations, side="right")]
-    return np.asarray(forward * (_total(vehicle) / vehicle.mass) - applied)
+    return np.asarray(forward)
 
 
-def axial_force_in_joints(vehicle: Vehicle) -> Array:
-    """n in every joint, shape (joints,); what acts at a joint sits on the aft face and does not press on it."""
-    stations = np.array(vehicle.boundaries[1:-1])
-    applied = _distributed_forward(vehicle, stations)
-    if vehicle.thrust.station is not None:
-        applied = applied + np.where(stations > vehicle.thrust.station + SAME * vehicle.length, vehicle.thrust.scale, 0)
-    if vehicle.axial_force == "constant":
-        return np.asarray(_total(vehicle) - applied)
+def _mass_forward_of_joints(vehicle: Vehicle) -> Array:
     forward = _stages_forward(vehicle)[1:-1]
     if vehicle.point_masses:
         snapped = np.array([lump.station for lump in vehicle.point_masses]) + SAME * vehicle.length
         stages = np.searchsorted(vehicle.boundaries[1:-1], snapped, side="right")
         lumps = np.bincount(stages, [lump.mass for lump in vehicle.point_masses], len(vehicle.stages))
         forward = forward + np.cumsum(lumps)[:-1]
-    return np.asarray(forward * (_total(vehicle) / vehicle.mass) - applied)
+    return np.asarray(forward)
 
 
 def _total(vehicle: Vehicle) -> float:
@@ -58,10 +100,9 @@ def _total(vehicle: Vehicle) -> float:
     return vehicle.thrust.scale + distributed
 
 
-def _distributed_forward(vehicle: Vehicle, stations: Array) -> Array:
+def _distributed_forward(vehicle: Vehicle, stations: Array) -> Array | float:
     """The part of the distributed loads that acts forward of stations, over P."""
-    loads = (integral(load.value, stations) for load in vehicle.distributed_thrusts)
-    return sum(loads, np.zeros(np.shape(stations)))
+    return sum((integral(load.value, stations) for load in vehicle.distributed_thrusts), 0.0)
 
 
 def _stages_forward(vehicle: Vehicle) -> Array:

@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -36,7 +37,7 @@ class Segment:
 
 
 def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment, ...]:
-    """Stretches of the stages between point masses, forces and steps or kinks of distributed loads, each cut into equal ``pieces``.
+    """Stretches of the stages between point masses and where loads act or bend, each cut into equal ``pieces``.
 
     A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
     So do kinks and steps of the stages' properties; of ``few`` segments at most for each stage, the lesser ones lie
@@ -62,8 +63,8 @@ def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment
 
 def _loaded(vehicle: Vehicle) -> Iterator[float]:
     """Stations where a load sets in or changes its course."""
-    for part in (*vehicle.point_masses, *vehicle.forces):
-        yield part.station
+    for parts in (vehicle.point_masses, vehicle.forces, vehicle.axial_loads):
+        yield from (part.station for part in parts)
     if vehicle.thrust.station is not None:
         yield vehicle.thrust.station
     for load in vehicle.distributed_thrusts:
@@ -80,7 +81,7 @@ class Basis(ABC):
 
     segments: tuple[Segment, ...]
     quadrature: int  # Gauss points per segment that integrate the products of the shapes exactly
-    pieces: "Mapping[int, Pieces]" = {}  # of the segments along which properties vary, by number
+    pieces: "Mapping[int, Pieces]" = MappingProxyType({})  # of the segments along which properties vary, by number
 
     springs: "tuple[GroundSpring, ...]" = ()
 

@@ -11,6 +11,7 @@ from beal.discretisation.legendre import LegendreBasis
 from beal.discretisation.modes import ModeBasis
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 Formulation = Literal["objective", "converged", "corrected-ritz", "as-printed"]
@@ -100,8 +101,9 @@ def check_ritz(vehicle: Vehicle, formulation: str) -> None:
     if len(stages) != 2:
         reasons.append(f"two stages, found {len(stages)}")
     elif any(stage.tables for stage in stages) or not np.allclose(
-        (stages[0].mass_per_length, stages[0].bending_stiffness),
-        (stages[1].mass_per_length, stages[1].bending_stiffness),
+        [mean(stage.mass_per_length) / vehicle.scales.mass_per_length for stage in stages]
+        + [mean(stage.bending_stiffness) / vehicle.scales.bending_stiffness for stage in stages],
+        1.0,
         rtol=1e-12,
     ):
         reasons.append("two stages of equal, uniform mass per length and bending stiffness")

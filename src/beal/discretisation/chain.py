@@ -1,4 +1,4 @@
-"""Numbering of coordinates along the chain: rigid-body motion, segments and flexible joints in order, ground springs."""
+"""Numbering of coordinates along the chain: rigid-body motion, segments and flexible joints, springs to the ground."""
 
 import math
 from dataclasses import dataclass

@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from scipy.sparse import block_array, csc_array, csr_array, vstack
 from scipy.sparse.linalg import SuperLU, splu
 
-from beal.discretisation.assembly import energies, normalised, sample
+from beal.discretisation.assembly import energies, normalised
 from beal.discretisation.basis import Array, Basis, Combined, Rows, segments
 from beal.discretisation.chain import ground_springs, held, jump_scales
 from beal.discretisation.cuts import ALL
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import gauss, integrals
+from beal.discretisation.samples import sample
 from beal.discretisation.varying import moment_shapes, pieces
 from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
@@ -175,6 +176,8 @@ class LinkedOperators:
     motions : ndarray, shape (n, rigid)
         The rigid-body motions that the supports leave, M-orthogonal.
     basis : LinkedBasis
+    dead : sparse array, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust.
     """
 
     vehicle: Vehicle
@@ -184,6 +187,12 @@ class LinkedOperators:
     B: Rows
     motions: Array
     basis: LinkedBasis
+    dead: Rows | None = None
+
+    def stiffness(self, thrust: float) -> Rows:
+        """K0 + P K1, and that of dead loads."""
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     @property
     def shift(self) -> float:
@@ -214,7 +223,8 @@ class LinkedOperators:
         """The dense operators in the span of admissible vectors, the first of which are rigid-body motions."""
         M, K0, K1 = (np.asarray(vectors.T @ (matrix @ vectors)) for matrix in (self.M, self.K0, self.K1))
         K0[:rigid] = K0[:, :rigid] = 0.0
-        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors))
+        dead = None if self.dead is None else np.asarray(vectors.T @ (self.dead @ vectors))
+        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), dead)
 
 
 def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
@@ -238,10 +248,10 @@ def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
     ((11, 11), (2, 11), (11, 0))
     """
     basis = LinkedBasis(vehicle, order)
-    M, K0, K1 = energies(vehicle, basis, sample(vehicle, basis))
+    M, K0, K1, dead = energies(vehicle, basis, sample(vehicle, basis))
     B = basis.constraints(vehicle)
     motions = basis.rigid_body()[:, : 0 if vehicle.founded else 2]
     _, singular, vt = np.linalg.svd(B[2 * len(basis.segments) - 2 :] @ motions, full_matrices=True)
     motions = motions @ vt[int(np.sum(singular > 1e-12)) :].T
     motions = normalised(vehicle, motions.T @ (M @ motions), motions)
-    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis)
+    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis, dead)

@@ -26,6 +26,8 @@ class Operators:
         Number of leading coordinates that are rigid-body motions: they strain nothing and are M-orthogonal to the rest.
     basis : Basis
         The shapes of the coordinates.
+    dead : ndarray, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust.
     """
 
     vehicle: Vehicle
@@ -34,10 +36,12 @@ class Operators:
     K1: Array
     rigid: int
     basis: Basis
+    dead: Array | None = None
 
     def stiffness(self, thrust: float) -> Array:
-        """K(P) = K0 + P K1, shape (n, n)."""
-        return self.K0 + thrust * self.K1
+        """K(P) = K0 + P K1, and that of dead loads, shape (n, n)."""
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     def shape(self, stations: ArrayLike, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Array:
         """Rows that read the motion at stations: the deflection (or its derivative) there is ``shape(x) @ q``.

@@ -18,9 +18,9 @@ from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined, settled
-from beal.stability.ridge import Instability, Search, meeting_pair
+from beal.stability.ridge import REAL, Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
-from beal.stability.zero_roots import mechanism, rigid_body_root
+from beal.stability.zero_roots import ZERO, mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 STEPS = 36  # coarse intervals up to the default limit
@@ -220,6 +220,8 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     spare = SPARE if method == "fast" else COMPLETE_SPARE
     small = reduced(full, task.watched + spare)
     drift = rigid_body_root(small, task.limit)
+    if full.dead is not None:
+        _check_dead_loads(small, drift == "tumbling")
     found = _first(task, small, method)
     watched = min(task.watched, len(small.M) - small.rigid)
     rigid_body: Literal["neutral", "tumbling", "held"]
@@ -250,6 +252,13 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
             elastic=result,
         )
     return result
+
+
+def _check_dead_loads(small: Pencil, tumbling: bool) -> None:
+    """Refuse a vehicle that its dead loads alone make unstable."""
+    low = small.roots(0.0)[int(tumbling) :]
+    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low)):
+        raise ModelError("axial_load: the dead loads alone, axial loads and gravity, make the vehicle unstable")
 
 
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:

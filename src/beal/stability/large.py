@@ -115,11 +115,12 @@ class Reduction:
         """Take in what the vectors of the double root leave unbalanced; whether there was anything."""
         system, known = self.system, self._vectors.shape[1]
         kept = self._vectors[:, known - len(full.M) :]
-        sides = zip((system.K1, system.K1.T), (point.right, point.left), chained(full, point), strict=True)
-        for K1, first, second in sides:
+        loaded = system.stiffness(point.thrust)
+        sides = zip((loaded, loaded.T), (point.right, point.left), chained(full, point), strict=True)
+        for stiffness, first, second in sides:
             size = np.array([np.linalg.norm(first), np.linalg.norm(second)])
             x = kept @ (np.column_stack((first, second)) / size)
-            unbalanced = system.K0 @ x + point.thrust * (K1 @ x) - point.W * (system.M @ x)
+            unbalanced = stiffness @ x - point.W * (system.M @ x)
             unbalanced[:, 1] -= system.M @ x[:, 0] * size[0] / size[1]
             self._vectors = _extended(system, self._vectors, system.deflected(unbalanced), NOISE)
         return self._vectors.shape[1] > known
@@ -134,7 +135,7 @@ class Reduction:
                 break
             before = found.W
             x = self._vectors[:, self._left_out :] @ (found.shapes / np.sqrt(size))
-            unbalanced = system.K0 @ x + thrust * (system.K1 @ x) - (system.M @ x) * found.W
+            unbalanced = system.stiffness(thrust) @ x - (system.M @ x) * found.W
             loads = np.hstack((unbalanced.real, unbalanced.imag))
             self._vectors = _extended(system, self._vectors, system.deflected(loads), NOISE)
         return found
@@ -146,9 +147,10 @@ class Reduction:
         modes = self._lowest_modes(BLOCK + loose, least, max(least, MOST_WATCHED + loose))
         low = np.hstack((system.motions, modes[:, : CORRECTED + loose]))
         groups = [modes]
-        for K1 in (system.K1, system.K1.T):
-            first = system.deflected(K1 @ low)
-            groups += [first, system.deflected(K1 @ first[:, :TWICE_CORRECTED])]
+        for load in (system.K1, system.dead):
+            for side in () if load is None else (load, load.T):
+                first = system.deflected(side @ low)
+                groups += [first, system.deflected(side @ first[:, :TWICE_CORRECTED])]
         self._vectors = self._vectors[:, :rigid]
         for group in groups:
             self._vectors = _extended(system, self._vectors, group)

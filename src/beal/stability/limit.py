@@ -32,7 +32,7 @@ def waves(vehicle: Vehicle) -> Array:
     """Integral over each segment of (m/EI)^(1/4), the wave number at W = 1, shape (segments,)."""
     points = _points(vehicle)
     number = (points.property("mass_per_length") / points.property("bending_stiffness")) ** 0.25
-    return np.bincount(points.segment, points.weight * number)
+    return np.asarray(np.bincount(points.segment, points.weight * number), dtype=np.float64)
 
 
 def _points(vehicle: Vehicle) -> Points:

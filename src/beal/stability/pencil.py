@@ -28,6 +28,8 @@ class Pencil:
         Number of rigid-body motions kept, the leading coordinates.
     shift : float
         A W > 0 below the elastic range, which makes K0 + shift M definite.
+    dead : ndarray, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust, not part of K0.
     """
 
     K0: Array
@@ -35,10 +37,12 @@ class Pencil:
     M: Array
     rigid: int
     shift: float
+    dead: Array | None = None
 
     def stiffness(self, thrust: float) -> Array:
         """K(P), shape (n, n)."""
-        return self.K0 + thrust * self.K1
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     def roots(self, thrust: float) -> ComplexArray:
         """All W in order of their real parts, shape (n,).
@@ -57,7 +61,8 @@ class Pencil:
         inertia, rotation = scipy.linalg.eigh(M, K0 + self.shift * M)
         inertia, rotation = np.maximum(inertia[::-1], LIGHT * inertia[-1]), rotation[:, ::-1]
         K0 = np.eye(len(M)) - self.shift * np.diag(inertia)
-        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift)
+        dead = None if self.dead is None else rotation.T @ (vectors.T @ self.dead @ vectors) @ rotation
+        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift, dead)
 
 
 def pencil(operators: Operators) -> Pencil:
@@ -67,12 +72,17 @@ def pencil(operators: Operators) -> Pencil:
     it contributes a zero root for every thrust and is left out.
     """
     rigid = operators.rigid
-    drive = np.abs(operators.K1[rigid:, :rigid]).max(axis=0, initial=0.0)
-    kept = np.flatnonzero(drive > UNCOUPLED * np.abs(operators.K1[rigid:, rigid:]).max(initial=0.0))
+    loads = [operators.K1] if operators.dead is None else [operators.K1, operators.dead]
+    drives = np.zeros(rigid, dtype=bool)
+    for load in loads:
+        largest = np.abs(load[rigid:, rigid:]).max(initial=0.0)
+        drives |= np.abs(load[rigid:, :rigid]).max(axis=0, initial=0.0) > UNCOUPLED * largest
+    kept = np.flatnonzero(drives)
     index = np.concatenate((kept, np.arange(rigid, len(operators.M))))
     select = np.ix_(index, index)
     shift = operators.vehicle.scales.angular_frequency**2
-    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], len(kept), shift)
+    dead = None if operators.dead is None else operators.dead[select]
+    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], len(kept), shift, dead)
 
 
 def reduced(full: Pencil, modes: int = MODES) -> Pencil:
@@ -85,11 +95,11 @@ def reduced(full: Pencil, modes: int = MODES) -> Pencil:
     modes = min(modes + full.rigid, len(static))
     _, vectors = scipy.linalg.eigh(full.M, static)
     vectors = vectors[:, ::-1]  # largest inertia first: the lowest modes, to full accuracy
-    if modes + 2 * (CORRECTED + TWICE_CORRECTED) >= len(static):
+    sides = [side for load in (full.K1, full.dead) if load is not None for side in (load, load.T)]
+    if modes + len(sides) * (CORRECTED + TWICE_CORRECTED) >= len(static):
         return full.projected(vectors)
     factor = scipy.linalg.cho_factor(static)
     low = vectors[:, : full.rigid + CORRECTED]
-    sides = (full.K1, full.K1.T)
     first = [scipy.linalg.cho_solve(factor, K1 @ low) for K1 in sides]
     second = [scipy.linalg.cho_solve(factor, K1 @ w[:, :TWICE_CORRECTED]) for K1, w in zip(sides, first, strict=True)]
     span = np.hstack((vectors[:, :modes], *first, *second))

@@ -181,7 +181,7 @@ def _patches(operators: Operators, springs: Sequence[str], ends: tuple[float, fl
     x_P, x_W = (np.cos(np.pi * (np.arange(n + 1) + 0.5) / (n + 1)) for n in (THRUST_DEGREE, W_DEGREE))
     thrusts = ends[0] + (ends[1] - ends[0]) * (1 + x_P) / 2
     W = edges[:-1, None] + np.diff(edges)[:, None] * (1 + x_W) / 2
-    values = characteristic(full.K0 + rows @ rows.T, full.K1, full.M, rows, thrusts, W.ravel())
+    values = characteristic(full.stiffness(0.0) + rows @ rows.T, full.K1, full.M, rows, thrusts, W.ravel())
     to_P, to_W = (np.linalg.inv(chebyshev.chebvander(x, len(x) - 1)) for x in (x_P, x_W))
     return np.einsum("pi,wj,siqj->qspw", to_P, to_W, values.reshape(-1, len(thrusts), *W.shape), optimize=True)
 

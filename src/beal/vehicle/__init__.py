@@ -3,6 +3,9 @@
 from beal.vehicle import catalog
 from beal.vehicle.file import dumps, load, loads
 from beal.vehicle.parts import (
+    AxialLoad,
+    DistributedThrust,
+    ElasticEnd,
     Force,
     Joint,
     PointMass,
@@ -19,6 +22,9 @@ from beal.vehicle.paths import value_at, with_values
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
+    "AxialLoad",
+    "DistributedThrust",
+    "ElasticEnd",
     "Force",
     "Joint",
     "PointMass",

@@ -156,10 +156,11 @@ class Support(Part):
     @property
     def stiffness(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Of nose and tail against deflection and slope, in N/m and N m/rad; infinite where held."""
-        nose, tail = (
-            (end.translation, end.rotation) if isinstance(end, ElasticEnd) else HELD[end] for end in (self.nose, self.tail)
-        )
-        return nose, tail
+        return _stiffness(self.nose), _stiffness(self.tail)
+
+
+def _stiffness(end: HeldEnd | ElasticEnd) -> tuple[float, float]:
+    return (end.translation, end.rotation) if isinstance(end, ElasticEnd) else HELD[end]
 
 
 class Thrust(Part):
@@ -179,7 +180,8 @@ class Thrust(Part):
         about the station is then ``tangency`` times that of the whole offset.
     axial_force : {"inertia", "constant"}, optional
         ``inertia``: N(x) = P times the share of the mass forward of x (a vehicle in flight); ``constant``: N = P
-        forward of where it acts (the nose takes the reaction). By default the first for a free-free vehicle, the second for a supported one.
+        forward of where it acts (the nose takes the reaction). By default the first for a free-free vehicle, the
+        second for a supported one.
     nominal : float, optional
         The thrust of normal operation, in N, used for margins and responses.
     """
@@ -205,6 +207,25 @@ class DistributedThrust(Part):
 
     value: LoadPerLength
     tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
+
+
+class AxialLoad(Part):
+    """A dead load along the axis, the same at every thrust, such as drag at the nose.
+
+    Parameters
+    ----------
+    station : float
+        In m from the nose.
+    force : float
+        Towards the nose, as thrust acts, in N; drag is negative.
+    tangency : float
+        0 for a force fixed in space, 1 for one that turns with the vehicle, as drag does.
+    """
+
+    name: str = ""
+    station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE]
+    force: Annotated[FiniteFloat, si("N")]
+    tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 0.0
 
 
 class Sensor(Part):

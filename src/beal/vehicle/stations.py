@@ -1,11 +1,12 @@
 """Properties along a stage: one number, or a table over stations."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError, ValidationError
 
@@ -72,11 +73,11 @@ class StationTable(Part):
         factor = length / self.x[-1]
         return type(self)(x=(*(x * factor for x in self.x[:-1]), length), value=self.value)
 
-    def at(self, x: ArrayLike) -> Array:
+    def at(self, x: Sequence[float] | Array) -> Array:
         """Values at stations, in any shape; in a step either side's."""
         return np.asarray(np.interp(x, self.arrays.x, self.arrays.value))
 
-    def integral(self, x: ArrayLike) -> Array:
+    def integral(self, x: Array) -> Array:
         """Integral from the front to stations, in any shape; exact."""
         stations, values = self.arrays.x, self.arrays.value
         piece = np.clip(np.searchsorted(stations, x, side="right") - 1, 0, len(stations) - 2)
@@ -171,5 +172,5 @@ def mean(given: Property) -> float:
 
 def misfit(location: tuple[str | int, ...], message: str, value: Any) -> ValidationError:
     """An error that keeps its place, however deep the part is nested."""
-    detail: InitErrorDetails = {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}  # type: ignore[arg-type]
+    detail: InitErrorDetails = {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}
     return ValidationError.from_exception_data("table", [detail])

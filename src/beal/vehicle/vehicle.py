@@ -5,14 +5,25 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, FiniteFloat, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beal.units import to_si
-from beal.vehicle.base import Part
-from beal.vehicle.parts import DistributedThrust, Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
+from beal.vehicle.base import Part, si
+from beal.vehicle.parts import (
+    AxialLoad,
+    DistributedThrust,
+    Force,
+    Joint,
+    PointMass,
+    Sensor,
+    Stage,
+    Support,
+    Thrust,
+    known,
+)
 from beal.vehicle.stations import StationTable, mean
 
 
@@ -57,6 +68,10 @@ class Vehicle(Part):
     support : Support
     thrust : Thrust
     distributed_thrusts : sequence of DistributedThrust
+    axial_loads : sequence of AxialLoad
+    gravity : float
+        Along the axis from nose to tail, in m/s^2. Only a vehicle whose ends take the reaction bears its weight; in
+        flight gravity accelerates all parts alike.
     sensors : sequence of Sensor
     forces : sequence of Force
     title : str
@@ -82,6 +97,8 @@ class Vehicle(Part):
     support: Support = Support()
     thrust: Thrust = Thrust()
     distributed_thrusts: tuple[DistributedThrust, ...] = Field(alias="distributed_thrust", default=())
+    axial_loads: tuple[AxialLoad, ...] = Field(alias="axial_load", default=())
+    gravity: Annotated[FiniteFloat, si("m/s^2")] = 0.0
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
 
@@ -195,7 +212,8 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
         yield ("joint",), message, len(joints)
     lengths = [metres(stage, "length") for stage in stages]
     total = sum(lengths) if lengths and all(x > 0 for x in lengths) else math.inf
-    for alias, name in (("point_mass", "point_masses"), ("sensor", "sensors"), ("force", "forces")):
+    placed = {"point_mass": "point_masses", "axial_load": "axial_loads", "sensor": "sensors", "force": "forces"}
+    for alias, name in placed.items():
         for index, part in enumerate(_parts(data, alias, name)):
             station = metres(part, "station")
             if station > total * (1 + 1e-12):
