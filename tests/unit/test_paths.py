@@ -31,7 +31,13 @@ def test_every_listed_path_reads_its_value():
     expected |= {"joint[0].rotational_stiffness": math.inf, "joint[0].shear_stiffness": math.inf}
     expected |= {"joint[1].rotational_stiffness": 3.0, "joint[1].shear_stiffness": math.inf}
     expected |= {"point_mass[0].station": 2.5, "point_mass[0].mass": 4.0, "point_mass[0].rotary_inertia": 0.0}
-    expected |= {"thrust.tangency": 1.0, "sensor[0].station": 0.5, "force[0].station": 3.0}
+    expected |= {
+        "thrust.tangency": 1.0,
+        "thrust.scale": 1.0,
+        "gravity": 0.0,
+        "sensor[0].station": 0.5,
+        "force[0].station": 3.0,
+    }
     expected |= {"force[0].signal.amplitude": 6.0, "force[0].signal.angular_frequency": 7.0}
     expected |= {"force[0].signal.phase": 0.0, "stage.split": 0.125}
     listed = paths(THREE_STAGES)

@@ -1,5 +1,6 @@
 """Where the segments of a stage with tables end: at the kinks and steps that polynomials would notice."""
 
+import heapq
 from functools import lru_cache
 
 import numpy as np
@@ -39,30 +40,27 @@ def cuts(stage: Stage, length: float, few: int) -> tuple[float, ...]:
     stations, kinks, steps = _bends(stage)
     ends = {0.0, stage.length}
     open_segments = [_worst(0.0, stage.length, stations, kinks, steps, length)]
-    while open_segments and len(ends) <= few:
-        open_segments.sort()
-        severity, station, front, back = open_segments.pop()
-        if severity <= NOTICED:
+    while len(ends) <= few:
+        severity, station, front, back = heapq.heappop(open_segments)
+        if -severity <= NOTICED:
             break
         ends.add(station)
         for a, b in ((front, station), (station, back)):
-            open_segments.append(_worst(a, b, stations, kinks, steps, length))
+            heapq.heappush(open_segments, _worst(a, b, stations, kinks, steps, length))
     return tuple(sorted(ends))[1:-1]
 
 
 def _worst(
     front: float, back: float, stations: Array, kinks: Array, steps: Array, length: float
 ) -> tuple[float, float, float, float]:
-    """How much polynomials notice of what is inside a segment, and the station that contributes most."""
-    inside = slice(*np.searchsorted(stations, (front, back), side="right"))
+    """What polynomials notice of what is inside a segment, with a minus sign, and the station that contributes most."""
+    inside = slice(np.searchsorted(stations, front, side="right"), np.searchsorted(stations, back))
     x = stations[inside]
-    x = x[: len(x) - int(len(x) > 0 and x[-1] == back)]
     if not len(x):
         return 0.0, front, front, back
-    inside = slice(inside.start, inside.start + len(x))
     size = (back - front) ** 2 * kinks[inside] ** 2 + STEP_TO_KINK * steps[inside] ** 2
     central = np.minimum(x - front, back - x)  # of equal ones the middle one
-    return float(size.sum() * ((back - front) / length) ** 4), float(x[np.argmax(size * central)]), front, back
+    return -float(size.sum() * ((back - front) / length) ** 4), float(x[np.argmax(size * central)]), front, back
 
 
 def _bends(stage: Stage) -> tuple[Array, Array, Array]:

@@ -257,7 +257,7 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
 def _check_dead_loads(small: Pencil, tumbling: bool) -> None:
     """Refuse a vehicle that its dead loads alone make unstable."""
     low = small.roots(0.0)[int(tumbling) :]
-    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low)):
+    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low) + ZERO * small.shift):
         raise ModelError("axial_load: the dead loads alone, axial loads and gravity, make the vehicle unstable")
 
 

@@ -165,10 +165,8 @@ def _merged(value: Any, tree: dict[str | int, Any]) -> Any:
     for name, key in _keys(kind).items():
         item = getattr(value, name)
         branch = tree.get(name)
-        if isinstance(item, Part | tuple):
-            item = _merged(item, branch) if branch else item
-        elif name in tree:
-            item = branch
+        if name in tree:
+            item = _merged(item, branch) if isinstance(branch, dict) else branch
         fields[key] = item
     return fields
 
