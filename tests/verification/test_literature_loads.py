@@ -96,6 +96,12 @@ def test_becks_column_changes_its_kind_at_a_tangency_of_one_half():
     assert below.critical_thrust == pytest.approx(math.acos(-0.49 / 0.51) ** 2, rel=1e-10)
 
 
+def test_reuts_column_is_the_adjoint_of_becks():
+    beck, reut = (discretise(column(thrust={"line": line, "tangency": 0.7})).K1 for line in ("moving", "fixed"))
+    np.testing.assert_allclose(reut, beck.T, atol=1e-14)
+    assert np.abs(reut - beck).max() > 0.1
+
+
 def test_a_thrust_at_the_middle_presses_on_the_forward_half_only():
     # The aft half is a mass that the forward half carries: heavier than half the column, no more than its length away.
     middle = critical_thrust(column(thrust={"station": 0.5}))
