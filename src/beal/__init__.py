@@ -23,16 +23,31 @@ if _typing.TYPE_CHECKING:
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
     from beal.vehicle.file import dumps, loads
-    from beal.vehicle.parts import Damping, Force, Joint, PointMass, Sensor, Stage, Support, Thrust
+    from beal.vehicle.parts import (
+        AxialLoad,
+        Damping,
+        DistributedThrust,
+        ElasticEnd,
+        Force,
+        Joint,
+        PointMass,
+        Sensor,
+        Stage,
+        Support,
+        Thrust,
+    )
     from beal.vehicle.vehicle import Vehicle
 
 __version__ = _version("beal")
 
 _HOMES = {
+    "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
     "ConvergenceError": "beal.errors",
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
+    "DistributedThrust": "beal.vehicle.parts",
+    "ElasticEnd": "beal.vehicle.parts",
     "Event": "beal.stability.complete",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
@@ -69,10 +84,13 @@ _HOMES = {
 }
 
 __all__ = [
+    "AxialLoad",
     "BealError",
     "ConvergenceError",
     "CriticalThrust",
     "Damping",
+    "DistributedThrust",
+    "ElasticEnd",
     "Event",
     "Force",
     "Joint",

@@ -13,6 +13,7 @@ from beal.discretisation.legendre import LegendreBasis
 from beal.discretisation.modes import ModeBasis
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 Formulation = Literal["objective", "converged", "corrected-ritz", "as-printed"]
@@ -104,14 +105,17 @@ def check_ritz(vehicle: Vehicle, formulation: str) -> None:
     reasons = []
     if len(stages) != 2:
         reasons.append(f"two stages, found {len(stages)}")
-    elif not np.allclose(
-        (stages[0].mass_per_length, stages[0].bending_stiffness),
-        (stages[1].mass_per_length, stages[1].bending_stiffness),
+    elif any(stage.tables for stage in stages) or not np.allclose(
+        [mean(stage.mass_per_length) / vehicle.scales.mass_per_length for stage in stages]
+        + [mean(stage.bending_stiffness) / vehicle.scales.bending_stiffness for stage in stages],
+        1.0,
         rtol=1e-12,
     ):
-        reasons.append("two stages of equal mass per length and bending stiffness")
+        reasons.append("two stages of equal, uniform mass per length and bending stiffness")
     if not vehicle.free_free:
         reasons.append(f"free ends, found {vehicle.support.nose} nose and {vehicle.support.tail} tail")
+    if vehicle.founded:
+        reasons.append("no foundation")
     if vehicle.point_masses:
         reasons.append(f"no point masses, found {len(vehicle.point_masses)}")
     if vehicle.damped:

@@ -69,6 +69,8 @@ def reduce(operators: Operators, thrust: float, modes: int, rigid_body: bool = T
         nu, V = nu[operators.rigid :], V[:, operators.rigid :]
     mass = np.diag(nu)
     stiffness = np.eye(len(nu)) + thrust * V.T @ operators.K1 @ V
+    if operators.dead is not None:
+        stiffness += V.T @ operators.dead @ V
     mu = np.asarray(eigvals(stiffness, mass), dtype=np.complex128) - shift
     mu = mu[np.argsort(abs(mu), kind="stable")]
     keep = min(rigid + modes, len(mu))

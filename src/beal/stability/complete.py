@@ -101,7 +101,7 @@ def events(pencil: Pencil, limit: float, watched: int) -> list[Event]:
 def _double_roots(pencil: Pencil, limit: float) -> Array:
     """Real parts of all nearly real thrusts in (0, limit] at which two roots coincide."""
     root = np.sqrt(np.diag(pencil.M))
-    A0, A1 = pencil.K0 / np.outer(root, root), limit * pencil.K1 / np.outer(root, root)
+    A0, A1 = pencil.stiffness(0.0) / np.outer(root, root), limit * pencil.K1 / np.outer(root, root)
     n = len(root)
     pairs = np.array(list(combinations(range(n), 2)))
     i, j = pairs.T
@@ -134,7 +134,7 @@ def _quadratic_eigenvalues(Q0: Array, Q1: Array, Q2: Array) -> Array:
 
 def zero_roots(pencil: Pencil, limit: float) -> Array:
     """All nearly real thrusts in (0, limit] at which K(P) is singular."""
-    alpha, beta = scipy.linalg.eigvals(-limit * pencil.K1, pencil.K0, homogeneous_eigvals=True)
+    alpha, beta = scipy.linalg.eigvals(-limit * pencil.K1, pencil.stiffness(0.0), homogeneous_eigvals=True)
     finite = np.abs(alpha) > 1e-12 * np.abs(beta)
     return nearly_real(beta[finite] / alpha[finite], limit)
 

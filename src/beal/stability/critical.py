@@ -19,9 +19,9 @@ from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined, settled
-from beal.stability.ridge import Instability, Search, meeting_pair
+from beal.stability.ridge import REAL, Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
-from beal.stability.zero_roots import FIRST, mechanism, rigid_body_root
+from beal.stability.zero_roots import FIRST, ZERO, mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 STEPS = 36  # coarse intervals up to the default limit
@@ -235,12 +235,18 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     drift: str
     if full.C is None:
         drift = rigid_body_root(small, task.limit)
+        if full.dead is not None:
+            _check_dead_loads(small, drift == "tumbling")
         found = _first(task, small, method)
+    elif full.dead is not None:
+        raise ModelError(
+            "damping: is not supported beside dead loads, axial_load and gravity; leave one of the two out"
+        )
     else:
         drift, found = _first_damped(task, small, _without_damping(operators, task.watched))
     watched = min(task.watched, len(small.M) - small.rigid)
     rigid_body: Literal["neutral", "tumbling", "held"]
-    floats = operators.rigid > 0 or operators.vehicle.free_free
+    floats = operators.rigid > 0 or (operators.vehicle.free_free and not operators.vehicle.founded)
     rigid_body = "tumbling" if drift == "tumbling" else "neutral" if floats else "held"
     nothing = CriticalThrust(None, "stable", None, None, None, task.formulation, task.limit, watched, rigid_body)
     result = nothing
@@ -267,6 +273,13 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
             elastic=result,
         )
     return result
+
+
+def _check_dead_loads(small: Pencil, tumbling: bool) -> None:
+    """Refuse a vehicle that its dead loads alone make unstable."""
+    low = small.roots(0.0)[int(tumbling) :]
+    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low) + ZERO * small.shift):
+        raise ModelError("axial_load: the dead loads alone, axial loads and gravity, make the vehicle unstable")
 
 
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:

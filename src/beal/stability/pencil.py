@@ -30,6 +30,8 @@ class Pencil:
         A W > 0 below the elastic range, which makes K0 + shift M definite.
     C : ndarray, shape (n, n), or None
         Damping; None where there is none.
+    dead : ndarray, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust, not part of K0.
     """
 
     K0: Array
@@ -38,10 +40,12 @@ class Pencil:
     rigid: int
     shift: float
     C: Array | None = None
+    dead: Array | None = None
 
     def stiffness(self, thrust: float) -> Array:
         """K(P), shape (n, n)."""
-        return self.K0 + thrust * self.K1
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     def roots(self, thrust: float) -> ComplexArray:
         """All W in order of their real parts, shape (n,).
@@ -60,8 +64,11 @@ class Pencil:
         inertia, rotation = scipy.linalg.eigh(M, K0 + self.shift * M)
         inertia, rotation = np.maximum(inertia[::-1], LIGHT * inertia[-1]), rotation[:, ::-1]
         K0 = np.eye(len(M)) - self.shift * np.diag(inertia)
-        C = None if self.C is None else rotation.T @ (vectors.T @ self.C @ vectors) @ rotation
-        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift, C)
+        C, dead = (
+            None if matrix is None else rotation.T @ (vectors.T @ matrix @ vectors) @ rotation
+            for matrix in (self.C, self.dead)
+        )
+        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift, C, dead)
 
 
 def pencil(operators: Operators) -> Pencil:
@@ -71,7 +78,7 @@ def pencil(operators: Operators) -> Pencil:
     section 5): it contributes zero roots for every thrust and is left out.
     """
     rigid = operators.rigid
-    matrices = [operators.K1] if operators.C is None else [operators.K1, operators.C]
+    matrices = [matrix for matrix in (operators.K1, operators.C, operators.dead) if matrix is not None]
     index = np.arange(rigid, len(operators.M))
     for _ in range(rigid):  # one motion may act on the elastic coordinates through another
         others = np.setdiff1d(np.arange(rigid), index)
@@ -83,9 +90,9 @@ def pencil(operators: Operators) -> Pencil:
     index.sort()
     select = np.ix_(index, index)
     shift = operators.vehicle.scales.angular_frequency**2
-    C = None if operators.C is None else operators.C[select]
+    C, dead = (None if matrix is None else matrix[select] for matrix in (operators.C, operators.dead))
     kept = len(index) - (len(operators.M) - rigid)
-    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], kept, shift, C)
+    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], kept, shift, C, dead)
 
 
 def reduced(full: Pencil, modes: int = MODES) -> Pencil:
@@ -98,11 +105,12 @@ def reduced(full: Pencil, modes: int = MODES) -> Pencil:
     modes = min(modes + full.rigid, len(static))
     _, vectors = scipy.linalg.eigh(full.M, static)
     vectors = vectors[:, ::-1]  # largest inertia first: the lowest modes, to full accuracy
-    if modes + 2 * (CORRECTED + TWICE_CORRECTED) >= len(static):
+    sides = [side for load in (full.K1, full.dead) if load is not None for side in (load, load.T)]
+    sides += [] if full.C is None else [full.C]
+    if modes + len(sides) * (CORRECTED + TWICE_CORRECTED) >= len(static):
         return full.projected(vectors)
     factor = scipy.linalg.cho_factor(static)
     low = vectors[:, : full.rigid + CORRECTED]
-    sides = (full.K1, full.K1.T) if full.C is None else (full.K1, full.K1.T, full.C)
     first = [scipy.linalg.cho_solve(factor, K1 @ low) for K1 in sides]
     second = [scipy.linalg.cho_solve(factor, K1 @ w[:, :TWICE_CORRECTED]) for K1, w in zip(sides, first, strict=True)]
     span = np.hstack((vectors[:, :modes], *first, *second))
