@@ -3,9 +3,9 @@
 import numpy as np
 import scipy.linalg
 
-from beal.discretisation.assembly import gauss, sample
-from beal.discretisation.basis import Array
+from beal.discretisation.basis import Array, Combined
 from beal.discretisation.operators import Operators
+from beal.discretisation.samples import losses, products
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -36,29 +36,19 @@ def damping_matrix(operators: Operators) -> Array:
     True
     """
     vehicle, basis, rigid = operators.vehicle, operators.basis, operators.rigid
-    samples = sample(vehicle, basis)
-    chain = basis.segments
-    _, weight = gauss(basis.quadrature)
-    stages = [vehicle.stages[segment.stage] for segment in chain]
-    times = np.repeat([stage.internal_damping for stage in stages], len(weight))
-    damping = _products(samples.curvature, times * samples.bending_stiffness)
+    if not isinstance(basis, Combined):
+        raise TypeError(f"the basis of operators with supports imposed is Combined, found {type(basis).__name__}")
+    inside, outside = (loss.combined(basis.transformation) for loss in losses(vehicle, basis.basis))
+    damping, chain = np.asarray(inside.matrix()), basis.segments
     fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
     for derivative, name in ((0, "shear_damping"), (1, "rotational_damping")):
         dashpots = np.array([getattr(joint, name) for joint in vehicle.joints])
         there = np.flatnonzero(dashpots)
-        damping = damping + _products(basis.jumps([fronts[j] for j in there], derivative), dashpots[there])
+        damping = damping + products(basis.jumps([fronts[j] for j in there], derivative), dashpots[there])
     damping[:rigid] = damping[:, :rigid] = 0.0  # rounding: rigid-body motions strain nothing
-    losses = np.outer(
-        [stage.external_damping * segment.length / 2 for stage, segment in zip(stages, chain, strict=True)], weight
-    )
-    damping = damping + _products(samples.deflection, losses.ravel())
+    damping = damping + outside.matrix()
     damping[rigid:, rigid:] += _modal(vehicle, operators.M[rigid:, rigid:], operators.K0[rigid:, rigid:])
     return np.asarray((damping + damping.T) / 2)
-
-
-def _products(rows: Array, weights: Array) -> Array:
-    """Sum of weight * row row^T."""
-    return np.asarray(rows.T @ (rows * weights[:, None]))
 
 
 def _modal(vehicle: Vehicle, M: Array, K0: Array) -> Array:

@@ -67,6 +67,14 @@ def sample(vehicle: Vehicle, basis: Basis) -> Samples:
     )
 
 
+def losses(vehicle: Vehicle, basis: Basis) -> tuple[Integral, Integral]:
+    """What the stages dissipate: tau EI phi'' phi''^T inside and c phi phi^T outside."""
+    points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
+    integral = _compressed if basis.pieces else _at_points
+    inside = points.property("internal_damping") * points.property("bending_stiffness")
+    return integral(basis, points, 2, inside), integral(basis, points, 0, points.property("external_damping"))
+
+
 def _distributed(vehicle: Vehicle, stations: Array) -> Array:
     """Distributed loads over P, as far as they turn with the tangents."""
     return np.sum([load.tangency * values(load.value, stations) for load in vehicle.distributed_thrusts], axis=0)

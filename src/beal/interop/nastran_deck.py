@@ -8,6 +8,7 @@ from beal.interop.cards import KEPT
 from beal.interop.stick import SAME_PLACE, titled
 from beal.vehicle.file import dumps_rest
 from beal.vehicle.parts import Joint
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 OUT_OF_PLANE = "1345"  # held everywhere: a vehicle bends in the plane xy
@@ -63,6 +64,7 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     """
     if elements < 1:
         raise ModelError([("elements", f"must be at least 1, found {elements}")])
+    _check(vehicle)
     named = {
         kind: all(_is_title(part.name) for part in parts)
         for kind, parts in (("stage", vehicle.stages), ("joint", vehicle.joints), ("point_mass", vehicle.point_masses))
@@ -81,6 +83,20 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     return "\n".join([head[0], *rest, *head[1:], *cards, "ENDDATA", ""])
 
 
+def _check(vehicle: Vehicle) -> None:
+    """Refuse what the cards that are written cannot say."""
+    problems = [
+        (f"stage[{n}].{name}", "is a table, which is not written to decks; keep it in TOML")
+        for n, stage in enumerate(vehicle.stages)
+        for name in stage.tables
+    ]
+    for name in ("nose", "tail"):
+        if not isinstance(getattr(vehicle.support, name), str):
+            problems.append((f"support.{name}", "is elastic, which is not written to decks; keep it in TOML"))
+    if problems:
+        raise ModelError(problems)
+
+
 def _bulk(vehicle: Vehicle, elements: int) -> Iterator[str]:
     yield "PARAM,COUPMASS,1"
     yield "EIGRL,1,,,12"
@@ -88,13 +104,13 @@ def _bulk(vehicle: Vehicle, elements: int) -> Iterator[str]:
     grids, bars, faces = _mesh(vehicle, elements)
     yield f"SPC1,1,{OUT_OF_PLANE},1,THRU,{len(grids)}"
     for end, grid in ((vehicle.support.nose, 1), (vehicle.support.tail, len(grids))):
-        if end != "free":
+        if isinstance(end, str) and end != "free":
             yield f"SPC1,1,{SUPPORTS[end]},{grid}"
     for number, station in enumerate(grids, 1):
         yield from _large("GRID", number, None, vehicle.length - station, 0.0, 0.0)
     for number, stage in enumerate(vehicle.stages, 1):
-        stiffness = stage.bending_stiffness
-        yield from _large("PBAR", number, 1, 1.0, stiffness, stiffness, None, stage.mass_per_length)
+        stiffness, mass_per_length = mean(stage.bending_stiffness), mean(stage.mass_per_length)  # uniform, see _check
+        yield from _large("PBAR", number, 1, 1.0, stiffness, stiffness, None, mass_per_length)
     before = 0
     for element, (number, fore, aft) in enumerate(bars, 1):
         if number != before:

@@ -20,6 +20,7 @@ from beal.interop.nastran import Imported
 from beal.units import to_si
 from beal.vehicle.file import LARGEST_FILE, dumps_rest, read_bytes, vehicle_from
 from beal.vehicle.parts import Stage
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 KEPT = "# beal:"
@@ -248,7 +249,9 @@ def station_rows(vehicle: Vehicle) -> list[list[str | float]]:
 
 
 def _properties(stage: Stage) -> tuple[float, float]:
-    return stage.mass_per_length, stage.bending_stiffness
+    if stage.tables:
+        raise ModelError([("stage", f"{' and '.join(stage.tables)} vary along it, which is not written; keep TOML")])
+    return mean(stage.mass_per_length), mean(stage.bending_stiffness)
 
 
 def stations_text(vehicle: Vehicle) -> str:

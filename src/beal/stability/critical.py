@@ -239,9 +239,7 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
             _check_dead_loads(small, drift == "tumbling")
         found = _first(task, small, method)
     elif full.dead is not None:
-        raise ModelError(
-            "damping: is not supported beside dead loads, axial_load and gravity; leave one of the two out"
-        )
+        raise ModelError("damping: is not supported beside dead loads (axial_load, gravity); leave one of the two out")
     else:
         drift, found = _first_damped(task, small, _without_damping(operators, task.watched))
     watched = min(task.watched, len(small.M) - small.rigid)
