@@ -224,7 +224,7 @@ class LinkedOperators:
         M, K0, K1 = (np.asarray(vectors.T @ (matrix @ vectors)) for matrix in (self.M, self.K0, self.K1))
         K0[:rigid] = K0[:, :rigid] = 0.0
         dead = None if self.dead is None else np.asarray(vectors.T @ (self.dead @ vectors))
-        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), dead)
+        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), dead=dead)
 
 
 def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
