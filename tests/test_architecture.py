@@ -16,6 +16,7 @@ ROOMS = [
     "discretisation",
     "stability",
     "motion",
+    "interop",
     "study",
     "plot",
     "report",

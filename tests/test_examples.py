@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import signal
 import socket
 import subprocess
@@ -14,7 +15,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-CLUSTERS, MAPS = ((ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8") for page in ("clusters", "maps"))
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
+CLUSTERS, INTEROP, MAPS = (PAGES.get(name, "") for name in ("clusters", "interop", "maps"))
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -78,9 +80,37 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(path.name for path in (ROOT / "docs").rglob("*.md")) == ["clusters.md", "maps.md"]
+    assert sorted(PAGES) == ["clusters", "interop", "maps"]
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
+    assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
+
+
+@pytest.fixture
+def interop_folder(readme_folder):
+    shutil.copy(EXAMPLES / "plain_stick.bdf", readme_folder)
+    (readme_folder / "stations.csv").write_text(blocks("csv", INTEROP)[0])
+    return readme_folder
+
+
+def test_the_commands_of_the_page_on_other_programs_print_what_is_shown(interop_folder):
+    for block in blocks("console", INTEROP):
+        for shown in re.findall(r"^\$ .*\n(?:[^$].*\n)*", block, re.MULTILINE):
+            command, _, expected = shown.partition("\n")
+            words = shlex.split(command.removeprefix("$ "))
+            assert words[0] == "beal"
+            assert without_errors(run([*BEAL, *words[1:]], interop_folder)) == without_errors(expected)
+
+
+def without_errors(text):
+    """The error estimates that rounding leaves differ between machines."""
+    return re.sub(r"[\d.]+e-\d+ │", "│", text).strip()
+
+
+@pytest.mark.parametrize("block", blocks("python", INTEROP))
+def test_the_python_of_the_page_on_other_programs_prints_what_it_says(interop_folder, block):
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], interop_folder).strip() == expected
 
 
 def test_the_maps_of_the_page_on_maps_are_as_shown(readme_folder):

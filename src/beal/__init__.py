@@ -12,24 +12,42 @@ if _typing.TYPE_CHECKING:
     from beal.discretisation.build import discretise
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
+    from beal.interop.files import load
     from beal.motion import ModeShape, Release, Response, Samples, growth_rate, response
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
     from beal.stability.spectrum import Spectrum, spectrum
+    from beal.stability.vanishing import vanishing_damping_limit
     from beal.study.map import stability_map
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
-    from beal.vehicle.file import dumps, load, loads
-    from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust
+    from beal.vehicle.file import dumps, loads
+    from beal.vehicle.parts import (
+        AxialLoad,
+        Damping,
+        DistributedThrust,
+        ElasticEnd,
+        Force,
+        Joint,
+        PointMass,
+        Sensor,
+        Stage,
+        Support,
+        Thrust,
+    )
     from beal.vehicle.vehicle import Vehicle
 
 __version__ = _version("beal")
 
 _HOMES = {
+    "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
     "ConvergenceError": "beal.errors",
     "CriticalThrust": "beal.stability.critical",
+    "Damping": "beal.vehicle.parts",
+    "DistributedThrust": "beal.vehicle.parts",
+    "ElasticEnd": "beal.vehicle.parts",
     "Event": "beal.stability.complete",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
@@ -54,7 +72,7 @@ _HOMES = {
     "critical_thrust": "beal.stability.critical",
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
-    "load": "beal.vehicle.file",
+    "load": "beal.interop.files",
     "loads": "beal.vehicle.file",
     "plot": "beal.plot",
     "refined_map": "beal.study.refined",
@@ -62,12 +80,17 @@ _HOMES = {
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
     "thrust_curve": "beal.stability.curve",
+    "vanishing_damping_limit": "beal.stability.vanishing",
 }
 
 __all__ = [
+    "AxialLoad",
     "BealError",
     "ConvergenceError",
     "CriticalThrust",
+    "Damping",
+    "DistributedThrust",
+    "ElasticEnd",
     "Event",
     "Force",
     "Joint",
@@ -100,6 +123,7 @@ __all__ = [
     "spectrum",
     "stability_map",
     "thrust_curve",
+    "vanishing_damping_limit",
 ]
 
 

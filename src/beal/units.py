@@ -70,7 +70,7 @@ def _converted(text: str, number: float, given: str, unit: str) -> float:
         return float(registry().Quantity(number, given or "dimensionless").to(unit or "dimensionless").magnitude)
     except pint.DimensionalityError as error:
         raise ValueError(f"expected {_wanted(unit)}, found {text!r} ({error.units1})") from None
-    except (pint.PintError, ArithmeticError, AttributeError, TypeError, ValueError) as error:
+    except (pint.PintError, ArithmeticError, AttributeError, KeyError, TypeError, ValueError) as error:
         raise ValueError(f"expected {_wanted(unit)}, found {text!r} ({error})") from error
 
 

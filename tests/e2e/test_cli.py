@@ -19,7 +19,7 @@ from beal.errors import ModelError
 from beal.vehicle import Thrust, catalog
 from beal.vehicle.file import load, loads
 
-COMMANDS = ["check", "modes", "critical", "curve", "map", "response", "reproduce", "example"]
+COMMANDS = ["check", "modes", "critical", "curve", "map", "response", "reproduce", "convert", "example"]
 HEAVY = {"numpy", "scipy", "pydantic", "xarray", "zarr", "matplotlib", "pint"}
 SI_BEAM = """
 title = "beam"
@@ -364,3 +364,18 @@ def test_what_is_no_regular_file_is_not_replaced(tmp_path):
     with pytest.raises(ModelError, match="not a regular file"), new_file(pipe):
         pass
     assert pipe.is_fifo()
+
+
+def test_critical_tells_the_load_without_damping_and_the_limit_of_vanishing_damping(beal, result_of, written):
+    model = written(
+        'units = "nondimensional"\nsupport.nose = "clamped"\n[[stage]]\nlength = 1\nmass_per_length = 1\n'
+        "bending_stiffness = 1\ninternal_damping = 0.01\n"
+    )
+    text = beal("critical", model).stdout
+    assert "flutters at P L^2/EI = 10.9661117: mode 1 begins to grow at an angular frequency of 5.39971" in text
+    assert "without its damping: flutters at P L^2/EI = 20.0509536: modes 1 and 2 meet" in text
+    assert "in the limit of vanishing damping: flutters at P L^2/EI = 10.9388493: mode 1 begins to grow" in text
+    found = result_of("critical", model, "--all")
+    beside = [found[name]["critical_thrust"] for name in ("undamped", "vanishing_damping")]
+    assert [found["critical_thrust"], *beside] == pytest.approx([10.96611165947, 20.0509536190, 10.9388493456])
+    assert found["events"][0]["modes"] == [1, 1]

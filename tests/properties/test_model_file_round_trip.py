@@ -21,10 +21,30 @@ signed = st.floats(-1e6, 1e6)
 positive = st.floats(1e-6, 1e6)
 stiffness = st.just(math.inf) | st.floats(0, 1e12)
 share = st.floats(0, 1)
-end = st.sampled_from(["free", "clamped", "pinned", "sliding"])
-stage = st.fixed_dictionaries(
-    {"length": positive, "mass_per_length": positive, "bending_stiffness": positive}, optional={"name": text}
+end = st.sampled_from(["free", "clamped", "pinned", "sliding"]) | st.fixed_dictionaries(
+    {}, optional={"translation": stiffness, "rotation": stiffness}
 )
+
+
+def along(length, value):
+    """A property along a length: a number, or a table that may hold a step."""
+
+    def table(values):
+        x = [length * n / (len(values) // 2) for n in range(1, len(values) // 2) for _ in (0, 1)]
+        return {"x": [0.0, *x, length], "value": values[: len(x) + 2]}
+
+    return value | st.lists(value, min_size=2, max_size=9).map(table)
+
+
+@st.composite
+def stage_tables(draw):
+    length = draw(positive)
+    properties = {name: along(length, positive) for name in ("mass_per_length", "bending_stiffness")}
+    optional = {"name": text, "foundation_stiffness": along(length, positive)}
+    return {"length": length} | draw(st.fixed_dictionaries(properties, optional=optional))
+
+
+stage = stage_tables()
 joint = st.fixed_dictionaries(
     {},
     optional={
@@ -69,11 +89,23 @@ def vehicles(draw):
                 {},
                 optional={
                     "tangency": st.floats(0, 2),
+                    "scale": positive,
+                    "station": stations,
+                    "line": st.sampled_from(["moving", "fixed"]),
                     "axial_force": st.sampled_from(["inertia", "constant"]),
                     "nominal": positive,
                 },
             )
         ),
+        distributed_thrusts=draw(
+            st.lists(st.fixed_dictionaries({"value": along(length, signed)}, optional={"tangency": share}), max_size=2)
+        ),
+        axial_loads=draw(
+            st.lists(
+                st.fixed_dictionaries({"station": stations, "force": signed}, optional={"tangency": share}), max_size=2
+            )
+        ),
+        gravity=draw(signed),
         sensors=[{"name": name, "station": draw(stations)} for name in names],
         forces=draw(st.lists(st.fixed_dictionaries({"station": stations, "signal": signal}), max_size=2)),
     )

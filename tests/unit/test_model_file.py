@@ -88,12 +88,14 @@ def test_all_problems_are_listed_under_the_name_of_the_file(tmp_path):
     path.write_text("[[stages]]\n[fuel]\n" + STAGE.replace("1.0", "-1.0", 1) + "[[joint]]\n[thrust]\ntangent = 1")
     with pytest.raises(ModelError) as caught:
         load(path)
+    known = "title, units, stage, joint, point_mass, support, thrust, damping, distributed_thrust, axial_load, gravity, sensor, "
+    known += "force"
     assert str(caught.value).splitlines() == [
         f"{path}: 5 problems",
-        "  stages: unknown key; known here: title, units, stage, joint, point_mass, support, thrust, sensor, force",
+        f"  stages: unknown key; known here: {known}",
         "  stage[0].length: must be greater than 0, found -1.0",
-        "  thrust.tangent: unknown key; known here: tangency, axial_force, nominal",
-        "  fuel: unknown key; known here: title, units, stage, joint, point_mass, support, thrust, sensor, force",
+        "  thrust.tangent: unknown key; known here: tangency, scale, station, line, axial_force, nominal",
+        f"  fuel: unknown key; known here: {known}",
         "  joint: must be one fewer than the stages, 0 (an empty [[joint]] is rigid), found 1",
     ]
     assert caught.value.problems[1] == ("stage[0].length", "must be greater than 0, found -1.0")

@@ -26,11 +26,20 @@ def refused(message):
 
 def test_every_listed_path_reads_its_value():
     expected = {f"stage[{n}].{name}": 1.0 for n in range(3) for name in ("mass_per_length", "bending_stiffness")}
+    expected |= {f"stage[{n}].foundation_stiffness": 0.0 for n in range(3)}
     expected |= {f"stage[{n}].length": length for n, length in enumerate((1.0, 2.0, 5.0))}
     expected |= {"joint[0].rotational_stiffness": math.inf, "joint[0].shear_stiffness": math.inf}
     expected |= {"joint[1].rotational_stiffness": 3.0, "joint[1].shear_stiffness": math.inf}
+    expected |= {f"stage[{n}].{name}_damping": 0.0 for n in range(3) for name in ("internal", "external")}
+    expected |= {f"joint[{n}].{name}_damping": 0.0 for n in range(2) for name in ("rotational", "shear")}
     expected |= {"point_mass[0].station": 2.5, "point_mass[0].mass": 4.0, "point_mass[0].rotary_inertia": 0.0}
-    expected |= {"thrust.tangency": 1.0, "sensor[0].station": 0.5, "force[0].station": 3.0}
+    expected |= {
+        "thrust.tangency": 1.0,
+        "thrust.scale": 1.0,
+        "gravity": 0.0,
+        "sensor[0].station": 0.5,
+        "force[0].station": 3.0,
+    }
     expected |= {"force[0].signal.amplitude": 6.0, "force[0].signal.angular_frequency": 7.0}
     expected |= {"force[0].signal.phase": 0.0, "stage.split": 0.125}
     listed = paths(THREE_STAGES)

@@ -179,6 +179,8 @@ def test_the_summary_gives_nondimensional_groups_and_is_plain_json():
         "shear_axis": "mean",
         "rotational_stiffness": 10.0,
         "shear_stiffness": "rigid",
+        "rotational_damping": 0.0,
+        "shear_damping": 0.0,
     }
     assert [(stage["from"], stage["to"], stage["mass"]) for stage in resolved["stages"]] == [(0, 2, 6), (2, 3, 6)]
 

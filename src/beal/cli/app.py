@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from beal import __version__
+from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
 from beal.cli.maps import map_study, reproduce
@@ -21,6 +22,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),
+    "convert": (convert, "beal convert stick.bdf tsto.toml --nose low"),
     "example": (example, "beal example tsto -o tsto.toml"),
 }
 

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from beal.vehicle.vehicle import Vehicle
 
 
+BESIDE = {"undamped": "without its damping", "vanishing_damping": "in the limit of vanishing damping"}
+
+
 def critical(
     model: Model,
     max_thrust: Annotated[float | None, typer.Option("--max-thrust", metavar="P", help="Search up to there.")] = None,
@@ -25,8 +28,9 @@ def critical(
     as_json: AsJson = False,
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
+    from beal.interop.files import load
     from beal.stability.critical import critical_events, critical_thrust
-    from beal.vehicle.file import load
+    from beal.stability.vanishing import vanishing_damping_limit
 
     vehicle = load(model)
     found = critical_thrust(
@@ -37,11 +41,18 @@ def critical(
         method="complete" if complete else "fast",
     )
     events = critical_events(vehicle, max_thrust, formulation, size) if every else []  # type: ignore[arg-type]
+    beside: dict[str, CriticalThrust] = {}
+    if vehicle.damped:
+        beside["undamped"] = critical_thrust(vehicle.undamped, max_thrust, formulation)  # type: ignore[arg-type]
+        beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
     if as_json:
         listed = {"events": [_event(event) for event in events]} if every else {}
-        emit({**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **listed})
+        others = {name: asdict(other) for name, other in beside.items()}
+        emit({**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **others, **listed})
         return
     print(_verdict(vehicle, found))
+    for name, other in beside.items():
+        print(f"{BESIDE[name]}: {_instability(vehicle, other.elastic or other)}")
     print(_searched(vehicle, found))
     if convention := _convention(vehicle, formulation):
         print(convention)
@@ -81,6 +92,8 @@ def _instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:
     thrust, unit = found.critical_thrust, _thrust_unit(vehicle)
     if thrust is None or found.modes is None or found.angular_frequency is None:
         return f"stable up to {quantity(found.searched_to, unit)}, as far as was searched"
+    if thrust == 0 and found.angular_frequency:
+        return f"flutters under any thrust: damping feeds {_mode(found.modes[0])}"
     if thrust == 0:
         return "is unstable at any thrust: it folds or slides without resistance"
     relative = _relative(vehicle, found)
@@ -90,7 +103,7 @@ def _instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:
     if unit or scale != 1:
         value = f"{quantity(thrust, unit, found.error_estimate)} ({value})"
     if found.kind == "flutter":
-        text = f"flutters at {value}: {_meeting(found.modes)} meet at {_frequency(vehicle, found.angular_frequency)}"
+        text = f"flutters at {value}: {_meeting(found.modes)} at {_frequency(vehicle, found.angular_frequency)}"
     else:
         text = f"diverges at {value}: the frequency of {_mode(found.modes[0])} falls to zero"
     margin = relative["margin"]
@@ -106,7 +119,9 @@ def _thrust_unit(vehicle: "Vehicle") -> str:
 
 
 def _meeting(pair: tuple[int, int]) -> str:
-    return f"modes {pair[0]} and {pair[1]}" if all(pair) else f"the rigid-body motion and mode {max(pair)}"
+    if pair[0] == pair[1]:  # damped
+        return f"{_mode(pair[0])} begins to grow"
+    return f"modes {pair[0]} and {pair[1]} meet" if all(pair) else f"the rigid-body motion and mode {max(pair)} meet"
 
 
 def _mode(number: int) -> str:
@@ -147,7 +162,7 @@ def _show_events(vehicle: "Vehicle", events: "list[Event]") -> None:
         [
             f"{event.thrust:.9g}",
             event.kind,
-            f"{event.modes[0]}-{event.modes[1]}" if event.kind == "flutter" else event.modes[0],
+            event.modes[0] if event.modes[0] == event.modes[1] else f"{event.modes[0]}-{event.modes[1]}",
             math.sqrt(max(event.W, 0.0)),
             event.change,
             event.unstable,

@@ -1,12 +1,11 @@
 """``beal curve``: frequencies over thrust."""
 
-from contextlib import nullcontext
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from beal.cli.options import AsJson, Formulation, Model, Table
-from beal.cli.output import emit, new_file, note, show_table, write_columns
+from beal.cli.output import emit, new_result, note, show_table
 
 if TYPE_CHECKING:
     from beal.stability.curve import ThrustCurve
@@ -22,15 +21,15 @@ def curve(
     as_json: AsJson = False,
 ) -> None:
     """Frequency and growth rate of each mode, followed over the thrust."""
+    from beal.interop import results
+    from beal.interop.files import load
     from beal.stability.curve import thrust_curve
-    from beal.vehicle.file import load
 
     vehicle = load(model)
-    with new_file(output) if output else nullcontext() as file:
+    with new_result(output) as write:
         found = thrust_curve(vehicle, to, points, modes, formulation)  # type: ignore[arg-type]  # checked there
         columns = _columns(found)
-        if file:
-            write_columns(file, columns)
+        write(columns, lambda: results.thrust_curve(found))
     if as_json:
         data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
         emit({**data, "units": vehicle.units, "file": str(output) if output else None})

@@ -16,11 +16,16 @@ UNITS = {
     "centre_of_mass": "m",
     "moment_of_inertia": "kg m^2",
     "nominal_thrust": "N",
+    "thrust_station": "m",
+    "gravity": "m/s^2",
+    "force": "N",
+    "value": "1/m",
     "from": "m",
     "to": "m",
     "station": "m",
     "mass_per_length": "kg/m",
     "bending_stiffness": "N m^2",
+    "foundation_stiffness": "N/m^2",
     "rotary_inertia": "kg m^2",
     "rotational_stiffness": "N m/rad",
     "shear_stiffness": "N/m",
@@ -35,19 +40,23 @@ EXAMPLES = ("beck", "beal", "pflueger", "tsto")
 
 def check(model: Model, as_json: AsJson = False) -> None:
     """Show the resolved model, or every error in it."""
-    from beal.vehicle.file import load
+    from beal.interop.files import imported
     from beal.vehicle.summary import summary
 
     try:
-        resolved = summary(load(model))
+        found = imported(model)
+        resolved = summary(found.vehicle)
     except ModelError as error:
         if as_json:
             emit({"errors": [{"path": path, "message": message} for path, message in error.problems]})
         raise
     if as_json:
-        emit(resolved)
-    else:
-        _show(resolved)
+        emit({**resolved, "notes": found.notes, "ignored": found.ignored})
+        return
+    _show(resolved)
+    for title, lines in (("how the file was read", found.notes), ("left out or simplified", found.ignored)):
+        if lines:
+            print(f"\n{title}", *(f"  {line}" for line in lines), sep="\n")
 
 
 def _show(resolved: dict[str, Any]) -> None:
@@ -64,10 +73,20 @@ def _show_part(part: dict[str, Any], units: dict[str, str]) -> None:
         if isinstance(value, list):
             if value:
                 columns = [_titled(key, units) for key in value[0]]
-                show_table(columns, [list(row.values()) for row in value], name.replace("_", " "))
+                show_table(columns, [[_text(item) for item in row.values()] for row in value], name.replace("_", " "))
         elif value not in (None, ""):
-            text = ", ".join(f"{key} {item}" for key, item in value.items()) if isinstance(value, dict) else cell(value)
+            ends = isinstance(value, dict)
+            text = ", ".join(f"{key} {_text(item)}" for key, item in value.items()) if ends else cell(value)
             print(f"{name.replace('_', ' ')}: {text} {units.get(name, '')}".rstrip())
+
+
+def _text(value: Any) -> Any:
+    """A table by its range, the springs of an end by their names."""
+    if not isinstance(value, dict):
+        return value
+    if "x" in value:
+        return f"{cell(min(value['value']))} to {cell(max(value['value']))}"
+    return " and ".join(f"{key} {cell(item)}" for key, item in value.items())
 
 
 def _titled(name: str, units: dict[str, str]) -> str:

@@ -1,15 +1,18 @@
 """``beal modes``: frequencies of the loaded or unloaded vehicle, converged."""
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from beal.cli.options import AsJson, Formulation, Model
-from beal.cli.output import digits, emit, show_table
+from beal.cli.output import digits, emit, new_result, note, show_table
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
+    import xarray
+
     from beal.vehicle.vehicle import Vehicle
 
 
@@ -19,14 +22,22 @@ def modes(
     thrust: Annotated[float | None, typer.Option("--thrust", metavar="P", help="Thrust; 0 unless given.")] = None,
     loaded: Annotated[bool, typer.Option("--loaded", help="Under the model's nominal thrust.")] = False,
     formulation: Formulation = "objective",
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Write the mode shapes there: CSV, .uff, .nc or .mat."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Frequencies and growth rates of the lowest elastic modes at a thrust."""
+    from beal.interop.files import load
     from beal.stability.modes import converged_modes
-    from beal.vehicle.file import load
 
     vehicle = load(model)
-    found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
+    with new_result(output) as write:
+        found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
+        if output:
+            shapes = _shapes(vehicle, found.thrust, count, formulation)
+            write(_columns(shapes), lambda: shapes)
     order = found.angular_frequency.argsort(kind="stable")
     omega, growth = found.angular_frequency[order], found.growth_rate[order] + 0.0  # no -0
     si = vehicle.units == "SI"
@@ -39,6 +50,7 @@ def modes(
         "thrust": found.thrust,
         "formulation": formulation,
         "units": vehicle.units,
+        **({"file": str(output)} if output else {}),
     }
     if as_json:
         emit(data)
@@ -52,6 +64,25 @@ def modes(
     rate = " [1/s]" if si else ""
     frequency = ["angular frequency [rad/s]", "frequency [Hz]"] if si else ["angular frequency"]
     show_table(["mode", *frequency, f"growth rate{rate}", "error estimate"], rows)
+    if output:
+        note(f"mode shapes written to {output}")
+
+
+def _shapes(vehicle: "Vehicle", thrust: float, count: int, formulation: str) -> "xarray.Dataset":
+    from beal.discretisation.build import discretise
+    from beal.interop.results import mode_shapes
+    from beal.stability.spectrum import spectrum
+
+    operators = discretise(vehicle, formulation)  # type: ignore[arg-type]  # checked before
+    return mode_shapes(spectrum(operators, thrust, count), operators)
+
+
+def _columns(shapes: "xarray.Dataset") -> dict[str, Any]:
+    """The station, then the real part of each mode's deflection and slope."""
+    columns: dict[str, Any] = {"station": shapes["station"].values}
+    for name in ("displacement", "slope"):
+        columns |= {f"{name}_{n}": row for n, row in enumerate(shapes[f"{name}_real"].values, 1)}
+    return columns
 
 
 def _thrust(vehicle: "Vehicle", thrust: float | None, loaded: bool) -> float:

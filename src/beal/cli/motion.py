@@ -1,12 +1,11 @@
 """``beal response``: time histories at the sensors."""
 
-from contextlib import nullcontext
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from beal.cli.options import AsJson, Model, Table
-from beal.cli.output import emit, new_file, note, show_table, write_columns
+from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
@@ -31,18 +30,18 @@ def response(
 ) -> None:
     """Motion at the sensors under a constant thrust and the transverse forces."""
     from beal.discretisation.build import discretise
+    from beal.interop import results
+    from beal.interop.files import load
     from beal.motion import response as motion_of
     from beal.stability.spectrum import spectrum
-    from beal.vehicle.file import load
 
     vehicle = load(model)
     start = _initial(initial) if initial else None
-    with new_file(output) if output else nullcontext() as file:
+    with new_result(output) as write:
         operators = discretise(vehicle)
         found = motion_of(operators, duration, thrust, step=step, method=method, initial=start)  # type: ignore[arg-type]
         growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max())
-        if file:
-            write_columns(file, _columns(found))
+        write(_columns(found), lambda: results.response(found))
     if as_json:
         sensors = {name: {what: getattr(found, what)[n] for what in HISTORIES} for n, name in enumerate(found.sensors)}
         emit(

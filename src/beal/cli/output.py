@@ -5,12 +5,15 @@ import json
 import math
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from beal.errors import ModelError
+
+if TYPE_CHECKING:
+    import xarray
 
 MOST_DIGITS = 9
 
@@ -100,18 +103,35 @@ def new_file(path: Path) -> Iterator[TextIO]:
     ModelError
         If no file can be written there.
     """
+    with new_path(path) as part, part.open("w", encoding="utf-8", newline="") as file:
+        yield file
+
+
+@contextmanager
+def new_path(path: Path) -> Iterator[Path]:
+    """The name of an empty file that takes the place of another when all of it is written.
+
+    Parameters
+    ----------
+    path : Path
+        In a folder that exists; a file that is there is replaced.
+
+    Raises
+    ------
+    ModelError
+        If no file can be written there.
+    """
     target = path.resolve()
     if target.exists() and not target.is_file():  # replacing a folder or a device would destroy it
         raise ModelError("cannot be written: is not a regular file; give the name of a file", str(path))
     part = target.with_name(f".beal-{os.getpid()}.part")
     try:
-        file = part.open("x", encoding="utf-8", newline="")
+        part.open("x").close()
     except OSError as error:
         message = f"cannot be written: {error.strerror}; give a file in a folder that exists and may be written"
         raise ModelError(message, str(path)) from None
     try:
-        with file:
-            yield file
+        yield part
         part.replace(target)
     finally:
         part.unlink(missing_ok=True)
@@ -136,6 +156,32 @@ def write_columns(file: TextIO, columns: dict[str, Any]) -> None:
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(columns)
     writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
+
+
+@contextmanager
+def new_result(path: Path | None) -> Iterator["Callable[[dict[str, Any], Callable[[], xarray.Dataset]], None]"]:
+    """Writes a result, given as columns and as a data set, to a file of the kind that the name's ending says.
+
+    Parameters
+    ----------
+    path : Path or None
+        CSV unless it ends with .nc, .mat, .uff or .unv; nothing is written to None.
+
+    Raises
+    ------
+    ModelError
+        If no file can be written there.
+    """
+    from beal.interop.files import RESULTS, write_result
+
+    if path is None:
+        yield lambda columns, dataset: None
+    elif (ending := path.suffix.lower()) in RESULTS:
+        with new_path(path) as part:
+            yield lambda columns, dataset: write_result(dataset(), part, ending)
+    else:
+        with new_file(path) as file:
+            yield lambda columns, dataset: write_columns(file, columns)
 
 
 def make_folder(path: Path) -> None:

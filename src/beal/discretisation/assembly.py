@@ -1,29 +1,28 @@
 """Energies and virtual work as matrices, for any basis (the theory's section on energies, term by term)."""
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
 
-from beal.discretisation.axial import axial_force, axial_force_in_joints
+from beal.discretisation.axial import axial_force_in_joints, dead_axial_force_in_joints
 from beal.discretisation.basis import Array, Basis, Combined, Rows
+from beal.discretisation.chain import held
 from beal.discretisation.operators import Operators
+from beal.discretisation.samples import Integral, Samples, products, sample
 from beal.vehicle.vehicle import Vehicle
-
-HELD: dict[str, tuple[int, ...]] = {"free": (), "clamped": (0, 1), "pinned": (0,), "sliding": (1,)}  # derivatives
 
 
 def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: bool = True) -> Operators:
     """M, K0 and K1 of a vehicle in a basis.
 
         M  = int m phi phi^T dx + sum (m_p phi phi^T + J_p phi' phi'^T)
-        K0 = int EI phi'' phi''^T dx + sum (k_r [[phi']] [[phi']]^T + k_s [[phi]] [[phi]]^T)
+        K0 = int (EI phi'' phi''^T + k_f phi phi^T) dx + sum (k_r [[phi']] [[phi']]^T + k_s [[phi]] [[phi]]^T)
         K1 = - int n phi' phi'^T dx - sum n_j ([[phi]] sigma^T + sigma [[phi]]^T) + eta phi(L) phi'(L)^T
 
-    with n = N/P. Supports are imposed exactly and the rigid-body motions that they leave are made M-orthogonal to the
-    elastic coordinates.
+    with n = N/P, and springs to the ground in K0 as those of joints. Dead loads make a matrix like K1. Supports are
+    imposed exactly and the rigid-body motions that they leave are made M-orthogonal to the elastic coordinates.
 
     Parameters
     ----------
@@ -45,90 +44,76 @@ def assemble(vehicle: Vehicle, basis: Basis, supports: bool = True, rigid_body: 
         samples = samples.combined(transformation)
     else:
         rigid = 0
-    mass, bending, load = energies(vehicle, basis, samples)
+    mass, bending, load, dead = energies(vehicle, basis, samples)
     bending[:rigid] = bending[:, :rigid] = 0.0
-    return Operators(vehicle, mass, bending, load, rigid, basis)
+    return Operators(vehicle, mass, bending, load, rigid, basis, dead=dead)
 
 
-def energies(vehicle: Vehicle, basis: Basis, samples: "Samples") -> tuple[Rows, Rows, Rows]:
-    """M, K0 and K1 in the coordinates of a basis: dense or sparse, as its rows are."""
-    bending = _products(samples.curvature, samples.bending_stiffness)
-    geometric = _products(samples.slope, samples.axial_force)
+def energies(vehicle: Vehicle, basis: Basis, samples: Samples) -> tuple[Rows, Rows, Rows, Rows | None]:
+    """M, K0, K1 and the stiffness of dead loads, if there are any, in a basis: dense or sparse, as its rows are."""
+    bending, geometric = samples.bending.matrix(), samples.axial.matrix()
+    for derivative, name in ((0, "shear_stiffness"), (1, "rotational_stiffness")):
+        aft, flexible = _flexible(vehicle, basis, name)
+        if aft:
+            springs = np.array([getattr(joint, name) for joint in vehicle.joints])
+            bending = bending + products(basis.jumps(aft, derivative), springs[flexible])
+    geometric = geometric + _couples(vehicle, basis, axial_force_in_joints(vehicle))
+    if basis.springs:
+        bending = bending + products(basis.deformations(), np.array([spring.stiffness for spring in basis.springs]))
+    if samples.foundation:
+        bending = bending + samples.foundation.matrix()
+    dead = _dead_loads(vehicle, basis, samples.dead) if samples.dead else None
+    return _mass(vehicle, basis, samples), bending, _follower(vehicle, basis, samples) - geometric, dead
+
+
+def _dead_loads(vehicle: Vehicle, basis: Basis, axial: Integral) -> Rows:
+    """Stiffness of the loads that do not grow with the thrust."""
+    stiffness = -axial.matrix() - _couples(vehicle, basis, dead_axial_force_in_joints(vehicle))
+    stations = np.array([load.station for load in vehicle.axial_loads])
+    if len(stations):
+        follower = np.array([load.tangency * load.force for load in vehicle.axial_loads])
+        deflection, slope = (basis.at(stations, derivative) for derivative in (0, 1))
+        stiffness = stiffness + deflection.T @ (slope * follower[:, None])
+    return stiffness
+
+
+def _flexible(vehicle: Vehicle, basis: Basis, name: str) -> tuple[list[int], NDArray[np.intp]]:
+    """The segments aft of the joints of finite stiffness, and the joints' numbers."""
+    flexible = np.flatnonzero([math.isfinite(getattr(joint, name)) for joint in vehicle.joints])
     chain = basis.segments
     fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
-    for derivative, name in ((0, "shear_stiffness"), (1, "rotational_stiffness")):
-        springs = np.array([getattr(joint, name) for joint in vehicle.joints])
-        flexible = np.flatnonzero(np.isfinite(springs))
-        if not len(flexible):
-            continue
-        aft = [fronts[joint] for joint in flexible]
-        jumps = basis.jumps(aft, derivative)
-        bending = bending + _products(jumps, springs[flexible])
-        if derivative == 0:
-            axes = _shear_axes(basis, aft, [vehicle.joints[joint].shear_axis for joint in flexible])
-            couples = jumps.T @ (axes * axial_force_in_joints(vehicle)[flexible, None])
-            geometric = geometric + couples + couples.T
-    tail, tail_slope = (basis.stacked([len(chain) - 1], np.array([1.0]), d) for d in (0, 1))
-    follower = vehicle.thrust.tangency * (tail.T @ tail_slope)
-    return _mass(vehicle, basis, samples), bending, follower - geometric
+    return [fronts[joint] for joint in flexible], flexible
 
 
-gauss = cache(leggauss)
+def _couples(vehicle: Vehicle, basis: Basis, forces: Array) -> Rows | float:
+    """Work of the axial forces through sheared joints."""
+    aft, flexible = _flexible(vehicle, basis, "shear_stiffness")
+    if not aft:
+        return 0.0
+    axes = _shear_axes(basis, aft, [vehicle.joints[joint].shear_axis for joint in flexible])
+    couples = basis.jumps(aft, 0).T @ (axes * forces[flexible, None])
+    return couples + couples.T
 
 
-def _products(rows: Rows, weights: Array) -> Rows:
-    """Sum of weight * row row^T."""
-    return rows.T @ (rows * weights[:, None])
-
-
-@dataclass(frozen=True)
-class Samples:
-    """Shapes at the Gauss points of all segments, with the weights of the integrals."""
-
-    deflection: Rows
-    slope: Rows
-    curvature: Rows
-    mass: Array
-    bending_stiffness: Array
-    axial_force: Array
-
-    def combined(self, transformation: Array) -> "Samples":
-        return Samples(
-            self.deflection @ transformation,
-            self.slope @ transformation,
-            self.curvature @ transformation,
-            self.mass,
-            self.bending_stiffness,
-            self.axial_force,
-        )
-
-
-def sample(vehicle: Vehicle, basis: Basis) -> Samples:
-    """A basis and the vehicle's properties at the Gauss points."""
-    xi, weight = gauss(basis.quadrature)
-    chain = basis.segments
-    half = np.array([segment.length / 2 for segment in chain])
-    weights = np.outer(half, weight)
-    stations = np.array([segment.start for segment in chain])[:, None] + np.outer(half, 1 + xi)
-    stages = [vehicle.stages[segment.stage] for segment in chain]
-    deflection, slope, curvature = (basis.stacked(range(len(chain)), xi, d) for d in (0, 1, 2))
-    return Samples(
-        deflection,
-        slope,
-        curvature,
-        mass=(weights * np.array([[stage.mass_per_length] for stage in stages])).ravel(),
-        bending_stiffness=(weights * np.array([[stage.bending_stiffness] for stage in stages])).ravel(),
-        axial_force=(weights * axial_force(vehicle, stations)).ravel(),
-    )
+def _follower(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:
+    """Work of the loads that turn with the tangent, and of those that do not move with the vehicle."""
+    thrust = vehicle.thrust
+    if thrust.station is None:
+        rows = [basis.stacked([len(basis.segments) - 1], np.array([1.0]), d) for d in (0, 1)]
+    else:
+        rows = [basis.at(np.array([thrust.station]), d) for d in (0, 1)]
+    deflection, slope = rows if thrust.line == "moving" else rows[::-1]
+    follower = (thrust.tangency * thrust.scale) * (deflection.T @ slope)
+    return follower + samples.load.matrix() if samples.load else follower
 
 
 def _mass(vehicle: Vehicle, basis: Basis, samples: Samples) -> Rows:
-    mass = _products(samples.deflection, samples.mass)
+    mass = samples.mass.matrix()
     if vehicle.point_masses:
         stations = np.array([lump.station for lump in vehicle.point_masses])
         for derivative, name in ((0, "mass"), (1, "rotary_inertia")):
             inertia = np.array([getattr(lump, name) for lump in vehicle.point_masses])
-            mass = mass + _products(basis.at(stations, derivative), inertia)
+            mass = mass + products(basis.at(stations, derivative), inertia)
     return mass
 
 
@@ -143,10 +128,10 @@ def _shear_axes(basis: Basis, segments: Sequence[int], axes: Sequence[str]) -> R
 
 def _admissible(vehicle: Vehicle, basis: Basis, samples: Samples, rigid_body: bool) -> tuple[Array, int]:
     """Combinations of the raw coordinates that satisfy the supports: rigid-body motions first, then elastic ones."""
-    ends = ((0, -1.0), (len(basis.segments) - 1, 1.0))
-    held = zip(ends, (vehicle.support.nose, vehicle.support.tail), strict=True)
-    rows = [basis.rows(segment, np.array([xi]), d)[0] for (segment, xi), end in held for d in HELD[end]]
+    rows = [basis.end(end, derivative) for end, derivative in held(vehicle)]
+    rows += [basis.end(spring.end, spring.derivative) for spring in basis.springs]
     constraints = np.array(rows).reshape(-1, basis.size)
+    constraints[len(constraints) - len(basis.springs) :] -= basis.deformations()
     on_rigid, on_strain = constraints[:, :2] * (1.0, 1 / vehicle.length), constraints[:, 2:]
     u, singular, vt = np.linalg.svd(on_rigid, full_matrices=True)
     rank = int(np.sum(singular > 1e-12))
@@ -161,6 +146,8 @@ def _admissible(vehicle: Vehicle, basis: Basis, samples: Samples, rigid_body: bo
         modal = rigid.T @ mass @ rigid
         elastic = elastic - rigid @ np.linalg.solve(modal, rigid.T @ mass @ elastic)
         rigid = normalised(vehicle, modal, rigid)
+    if vehicle.founded:  # then these motions strain the foundation
+        return np.hstack((rigid, elastic)), 0
     if not rigid_body:
         rigid = rigid[:, :0]
     return np.hstack((rigid, elastic)), rigid.shape[1]

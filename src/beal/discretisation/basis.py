@@ -2,14 +2,21 @@
 
 from abc import ABC, abstractmethod
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from beal.discretisation.cuts import FEW, bends, cuts
+from beal.vehicle.stations import StationTable
 from beal.vehicle.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from beal.discretisation.chain import GroundSpring
+    from beal.discretisation.varying import Pieces
 
 Array = NDArray[np.float64]
 Rows = Any  # ndarray or sparse array of one row per reading of the shapes
@@ -18,7 +25,7 @@ SNAP = 1e-9  # share of the length within which a station counts as a segment's 
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of one stage over which every property is smooth."""
+    """A stretch of one stage over which every property is smooth, but for lesser kinks and steps."""
 
     stage: int
     start: float
@@ -29,24 +36,40 @@ class Segment:
         return self.start + self.length
 
 
-def segments(vehicle: Vehicle, pieces: int = 1) -> tuple[Segment, ...]:
-    """Stretches of the stages between point masses and force stations, each cut into equal ``pieces``.
+def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment, ...]:
+    """Stretches of the stages between point masses and where loads act or bend, each cut into equal ``pieces``.
 
     A concentrated load leaves a step in the third derivative; with a segment's end there, polynomials stay accurate.
+    So do kinks and steps of the stages' properties; of ``few`` segments at most for each stage, the lesser ones lie
+    inside.
     """
-    loads = sorted([lump.station for lump in vehicle.point_masses] + [force.station for force in vehicle.forces])
+    loads = sorted(_loaded(vehicle))
     margin = SNAP * vehicle.length
     chain = []
     for stage, (front, back) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False)):
         ends = [front]
-        for station in loads[bisect_left(loads, front) : bisect_left(loads, back)]:
+        inner = loads[bisect_left(loads, front) : bisect_left(loads, back)]
+        if vehicle.stages[stage].tables:
+            inner = sorted([*inner, *(front + x for x in cuts(vehicle.stages[stage], vehicle.length, few))])
+        for station in inner:
             if ends[-1] + margin < station < back - margin:
                 ends.append(station)
         ends.append(back)
         for a, b in zip(ends, ends[1:], strict=False):
-            cuts = np.linspace(a, b, pieces + 1)
-            chain += [Segment(stage, float(x), float(y - x)) for x, y in zip(cuts, cuts[1:], strict=False)]
+            parts = np.linspace(a, b, pieces + 1)
+            chain += [Segment(stage, float(x), float(y - x)) for x, y in zip(parts, parts[1:], strict=False)]
     return tuple(chain)
+
+
+def _loaded(vehicle: Vehicle) -> Iterator[float]:
+    """Stations where a load sets in or changes its course."""
+    for parts in (vehicle.point_masses, vehicle.forces, vehicle.axial_loads):
+        yield from (part.station for part in parts)
+    if vehicle.thrust.station is not None:
+        yield vehicle.thrust.station
+    for load in vehicle.distributed_thrusts:
+        if isinstance(load.value, StationTable):
+            yield from bends(load.value)[0].tolist()
 
 
 class Basis(ABC):
@@ -58,6 +81,9 @@ class Basis(ABC):
 
     segments: tuple[Segment, ...]
     quadrature: int  # Gauss points per segment that integrate the products of the shapes exactly
+    pieces: "Mapping[int, Pieces]" = MappingProxyType({})  # of the segments along which properties vary, by number
+
+    springs: "tuple[GroundSpring, ...]" = ()
 
     @property
     @abstractmethod
@@ -79,10 +105,19 @@ class Basis(ABC):
 
     def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Rows:
         """Values of a derivative of all shapes at stations, shape (len(stations), size)."""
-        rows = np.empty((len(stations), self.size))
-        for row, segment, xi in zip(rows, *self.located(stations, side), strict=True):
-            row[:] = self.rows(int(segment), np.array([xi]), derivative)[0]
+        return self.rows_at(*self.located(stations, side), derivative)
+
+    def rows_at(self, index: NDArray[np.intp], xi: Array, derivative: int) -> Rows:
+        """Values of a derivative of all shapes at xi of the segments ``index``, shape (len(index), size)."""
+        rows = np.empty((len(index), self.size))
+        for segment in np.unique(index):
+            here = index == segment
+            rows[here] = self.rows(int(segment), xi[here], derivative)
         return rows
+
+    def end(self, end: int, derivative: int) -> Array:
+        """Values at the nose (0) or tail (1), shape (size,)."""
+        return np.asarray(self.rows(-end % len(self.segments), np.array([2.0 * end - 1.0]), derivative)[0])
 
     def jump(self, segment: int, derivative: int) -> Array:
         """[[f]] = f(aft side) - f(forward side) across the front of a segment, shape (size,)."""
@@ -92,6 +127,18 @@ class Basis(ABC):
     def stacked(self, segments: Sequence[int], xi: Array, derivative: int) -> Rows:
         """Rows of several segments below each other, shape (len(segments) * len(xi), size)."""
         return np.array([self.rows(i, xi, derivative) for i in segments]).reshape(-1, self.size)
+
+    def deformations(self) -> Rows:
+        """Deflections and slopes of the ground springs' ends, shape (springs, size)."""
+        return np.zeros((0, self.size))
+
+    def at_points(self, segment: int, derivative: int) -> Array:
+        """A derivative of the shapes that live on a segment at its Gauss points, shape (points, shapes)."""
+        raise NotImplementedError
+
+    def expanded(self, segment: int, local: Array) -> Rows:
+        """Rows over all shapes from rows over those that live on a segment, shape (len(local), size)."""
+        raise NotImplementedError
 
     def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
         """Jumps across the fronts of several segments, shape (len(segments), size)."""
@@ -128,3 +175,10 @@ class Combined(Basis):
 
     def jump(self, segment: int, derivative: int) -> Array:
         return self.basis.jump(segment, derivative) @ self.transformation
+
+    @property
+    def springs(self) -> "tuple[GroundSpring, ...]":  # type: ignore[override]
+        return self.basis.springs
+
+    def deformations(self) -> Rows:
+        return self.basis.deformations() @ self.transformation

@@ -1,16 +1,19 @@
 """From a vehicle to its operators, under each of the formulations that the program names."""
 
+from dataclasses import replace
 from typing import Literal, get_args
 
 import numpy as np
 
 from beal.discretisation.assembly import assemble
 from beal.discretisation.basis import Basis, segments
+from beal.discretisation.damping import damping_matrix
 from beal.discretisation.hermite import HermiteBasis
 from beal.discretisation.legendre import LegendreBasis
 from beal.discretisation.modes import ModeBasis
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 Formulation = Literal["objective", "converged", "corrected-ritz", "as-printed"]
@@ -28,7 +31,7 @@ def discretise(
     basis: BasisName = "legendre",
     order: int | None = None,
 ) -> Operators:
-    """Matrices of a vehicle, M q'' + (K0 + P K1) q = F.
+    """Matrices of a vehicle, M q'' + C q' + (K0 + P K1) q = F.
 
     Parameters
     ----------
@@ -73,12 +76,15 @@ def discretise(
         raise ModelError(
             f"order: {degree} gives some {size} coordinates, too many for dense matrices (at most {LARGEST}): "
             "lower it, or ask for the critical thrust or the modes, which reduce a large vehicle in the default basis"
+            + (" if it has no damping" if vehicle.damped else "")
         )
     shapes: Basis
     shapes = (LegendreBasis if basis == "legendre" else HermiteBasis)(vehicle, degree)
     if formulation == "converged":
-        return assemble(inertial(vehicle), shapes, rigid_body=False)
-    return assemble(vehicle, shapes)
+        operators = assemble(inertial(vehicle), shapes, rigid_body=False)
+    else:
+        operators = assemble(vehicle, shapes)
+    return replace(operators, C=damping_matrix(operators)) if vehicle.damped else operators
 
 
 def check_formulation(formulation: str) -> None:
@@ -99,15 +105,20 @@ def check_ritz(vehicle: Vehicle, formulation: str) -> None:
     reasons = []
     if len(stages) != 2:
         reasons.append(f"two stages, found {len(stages)}")
-    elif not np.allclose(
-        (stages[0].mass_per_length, stages[0].bending_stiffness),
-        (stages[1].mass_per_length, stages[1].bending_stiffness),
+    elif any(stage.tables for stage in stages) or not np.allclose(
+        [mean(stage.mass_per_length) / vehicle.scales.mass_per_length for stage in stages]
+        + [mean(stage.bending_stiffness) / vehicle.scales.bending_stiffness for stage in stages],
+        1.0,
         rtol=1e-12,
     ):
-        reasons.append("two stages of equal mass per length and bending stiffness")
+        reasons.append("two stages of equal, uniform mass per length and bending stiffness")
     if not vehicle.free_free:
         reasons.append(f"free ends, found {vehicle.support.nose} nose and {vehicle.support.tail} tail")
+    if vehicle.founded:
+        reasons.append("no foundation")
     if vehicle.point_masses:
         reasons.append(f"no point masses, found {len(vehicle.point_masses)}")
+    if vehicle.damped:
+        reasons.append("no damping")
     if reasons:
         raise ModelError(f"formulation {formulation}: applies to the paper's vehicle only, {'; '.join(reasons)}")

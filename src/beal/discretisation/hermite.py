@@ -20,4 +20,4 @@ class HermiteBasis(LegendreBasis):
     """
 
     def __init__(self, vehicle: Vehicle, order: int) -> None:
-        super().__init__(vehicle, order=1, pieces=order)
+        super().__init__(vehicle, order=1, parts=order, moments=False)

@@ -5,13 +5,16 @@ diagonal, each coordinate is scaled by its own stiffness, and a joint of 1e12 is
 joint has no coordinate at all.
 """
 
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from beal.discretisation.basis import Array, Basis, segments
 from beal.discretisation.chain import Chain
+from beal.discretisation.polynomials import gauss, integrals
+from beal.discretisation.varying import moment_shapes, pieces
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -23,18 +26,23 @@ class LegendreBasis(Basis):
     vehicle : Vehicle
     order : int
         Highest degree of the curvature, at least 1 (0 and 1 carry the segment's end rotation and deflection).
-    pieces : int
+    parts : int
         Equal parts into which each segment is cut.
+    moments : bool
+        Whether the bending moments, rather than the curvatures, are polynomials where the stiffness varies.
     """
 
-    def __init__(self, vehicle: Vehicle, order: int, pieces: int = 1) -> None:
-        self.segments = segments(vehicle, pieces)
+    def __init__(self, vehicle: Vehicle, order: int, parts: int = 1, moments: bool = True) -> None:
+        self.segments = segments(vehicle, parts)
+        self.pieces = pieces(vehicle, self.segments, order)
+        self._shapes = moment_shapes(vehicle, self.segments, self.pieces, order) if moments else {}
         self.quadrature = order + 3  # exact to degree 2 * order + 5, the mass integrand has 2 * order + 4
         self._order = order
         chain = Chain(vehicle, self.segments, per_segment=order + 1)
         self._size = chain.size
         self._columns = chain.columns
-        self._stiffness = [vehicle.stages[segment.stage].bending_stiffness for segment in self.segments]
+        self.springs, self.deformations = chain.springs, chain.deformations  # type: ignore[method-assign]
+        self._stiffness = [mean(vehicle.stages[segment.stage].bending_stiffness) for segment in self.segments]
         self._front = np.zeros((len(self.segments), 2, self._size))  # deflection and slope at the fronts
         state = chain.nose()
         for index, segment in enumerate(self.segments):
@@ -56,6 +64,8 @@ class LegendreBasis(Basis):
 
     def _local(self, index: int, xi: Array, derivative: int) -> Array:
         """Deflection, slope or curvature that the segment's own coordinates add behind its front."""
+        if index in self._shapes:
+            return self._shapes[index].at(xi, derivative)
         length = self.segments[index].length
         values = _polynomials(self._order, 2 - derivative, tuple(xi))
         degree = np.arange(self._order + 1)
@@ -72,17 +82,28 @@ class LegendreBasis(Basis):
         rows[:, self._columns[segment]] += self._local(segment, xi, derivative)
         return rows
 
+    def at_points(self, segment: int, derivative: int) -> Array:
+        xi = self.pieces[segment].xi if segment in self.pieces else gauss(self.quadrature)[0]
+        shapes = self._shapes.get(segment)
+        own = shapes.at_points(derivative) if shapes else self._local(segment, xi, derivative)
+        return self._behind(segment, xi, derivative, own)
+
+    def expanded(self, segment: int, local: Array) -> Array:
+        rows = local[:, :2] @ self._front[segment]
+        rows[:, self._columns[segment]] += local[:, 2:]
+        return rows
+
+    def _behind(self, segment: int, xi: Array, derivative: int, own: Array) -> Array:
+        """A segment's own shapes beside those of a unit deflection and slope at its front."""
+        front = np.zeros((len(xi), 2))
+        if derivative < 2:
+            front[:, derivative] = 1.0
+        if derivative == 0:
+            front[:, 1] = self.segments[segment].length * (1 + xi) / 2
+        return np.hstack((front, own))
+
 
 @lru_cache(maxsize=256)
 def _polynomials(order: int, times: int, xi: tuple[float, ...]) -> Array:
     """P_0..P_order integrated from -1 ``times`` times, at xi; the same few points come again for every segment."""
     return legendre.legvander(np.array(xi), order + 2) @ integrals(order, times)
-
-
-@cache
-def integrals(order: int, times: int) -> Array:
-    """Legendre coefficients of P_0..P_order integrated from -1 ``times`` times, shape (order + 3, order + 1)."""
-    integrated = legendre.legint(np.eye(order + 1), m=times, lbnd=-1) if times else np.eye(order + 1)
-    coefficients = np.zeros((order + 3, order + 1))
-    coefficients[: len(integrated)] = integrated
-    return coefficients

@@ -9,7 +9,6 @@ the number of segments. Unlike nodal coordinates alone, it keeps the digits of t
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -17,11 +16,15 @@ from numpy.typing import NDArray
 from scipy.sparse import block_array, csc_array, csr_array, vstack
 from scipy.sparse.linalg import SuperLU, splu
 
-from beal.discretisation.assembly import HELD, energies, normalised, sample
+from beal.discretisation.assembly import energies, normalised
 from beal.discretisation.basis import Array, Basis, Combined, Rows, segments
-from beal.discretisation.chain import jump_scales
-from beal.discretisation.legendre import integrals
+from beal.discretisation.chain import ground_springs, held, jump_scales
+from beal.discretisation.cuts import ALL
 from beal.discretisation.operators import Operators
+from beal.discretisation.polynomials import gauss, integrals
+from beal.discretisation.samples import sample
+from beal.discretisation.varying import moment_shapes, pieces
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -39,7 +42,9 @@ class LinkedBasis(Basis):
     """
 
     def __init__(self, vehicle: Vehicle, order: int) -> None:
-        self.segments = segments(vehicle)
+        self.segments = segments(vehicle, few=ALL)
+        self.pieces = pieces(vehicle, self.segments, order)
+        self._shapes = moment_shapes(vehicle, self.segments, self.pieces, order)
         self.quadrature = order + 3
         self._order = order
         count = len(self.segments)
@@ -48,13 +53,15 @@ class LinkedBasis(Basis):
         self.units = np.array([scales.length / scales.thrust, 1 / (scales.length * scales.thrust)]) ** 0.5
         self._lengths = np.array([segment.length for segment in self.segments])
         stages = np.array([segment.stage for segment in self.segments])
-        stiffness = np.array([stage.bending_stiffness for stage in vehicle.stages])[stages]
+        stiffness = np.array([mean(stage.bending_stiffness) for stage in vehicle.stages])[stages]
         self._unit_energy = (self._lengths * stiffness) ** -0.5
         self._jumps = np.zeros((count, 2))  # across the fronts, at a unit of the joints' coordinates
         self._jumps[np.flatnonzero(np.diff(stages)) + 1] = np.array(jump_scales(vehicle)).reshape(-1, 2)
         flexible = self._jumps > 0
         self._jump_columns = 2 * count - 1 + np.cumsum(flexible).reshape(count, 2)
-        self._polynomials = 2 * count + int(flexible.sum())
+        self.springs = ground_springs(vehicle)
+        self._grounds = 2 * count + int(flexible.sum())
+        self._polynomials = self._grounds + len(self.springs)
 
     @property
     def size(self) -> int:
@@ -67,9 +74,32 @@ class LinkedBasis(Basis):
         index = np.repeat(np.asarray(segments, dtype=np.intp), len(xi))
         return self._rows(index, np.tile(xi, len(segments)), self._integrated(xi, derivative), derivative)
 
-    def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Rows:
-        index, xi = self.located(stations, side)
+    def rows_at(self, index: NDArray[np.intp], xi: Array, derivative: int) -> Rows:
         return self._rows(index, xi, self._integrated(xi, derivative), derivative)
+
+    def at_points(self, segment: int, derivative: int) -> Array:
+        xi = self.pieces[segment].xi if segment in self.pieces else gauss(self.quadrature)[0]
+        front = np.zeros((len(xi), 2))
+        if derivative < 2:
+            front[:, derivative] = self.units[derivative]
+        if derivative == 0:
+            front[:, 1] = self.units[1] * self._lengths[segment] * (1 + xi) / 2
+        shapes = self._shapes.get(segment)
+        return np.hstack((front, shapes.at_points(derivative) if shapes else self._own(segment, xi, derivative)))
+
+    def expanded(self, segment: int, local: Array) -> Rows:
+        columns = np.tile(self._columns(np.array([segment])), (len(local), 1))
+        ends = local.shape[1] * np.arange(len(local) + 1)
+        return csr_array((local.ravel(), columns.ravel(), ends), (len(local), self.size))
+
+    def _own(self, segment: int, xi: Array, derivative: int) -> Array:
+        scale = self._unit_energy[segment] * (self._lengths[segment] / 2) ** (2 - derivative)
+        return scale * self._integrated(xi, derivative) * np.sqrt(2 * np.arange(self._order + 1) + 1)
+
+    def _columns(self, index: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Coordinates of the shapes that live on segments, shape (len(index), 2 + order + 1)."""
+        polynomials = self._polynomials + index[:, None] + len(self.segments) * np.arange(self._order + 1)
+        return np.hstack((2 * index[:, None], 2 * index[:, None] + 1, polynomials))
 
     def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
         fronts = np.asarray(segments, dtype=np.intp)
@@ -86,9 +116,19 @@ class LinkedBasis(Basis):
         for d, unit in enumerate(self.units):
             jumps = self.jumps(fronts, d)
             rows.append((self.stacked(fronts, front, d) - self.stacked(before, end, d) - jumps) / unit)
-        rows += [self.stacked([0], front, d) / self.units[d] for d in HELD[vehicle.support.nose]]
-        rows += [self.stacked([count - 1], end, d) / self.units[d] for d in HELD[vehicle.support.tail]]
+        ends = ((0, front), (count - 1, end))
+        rows += [self.stacked([ends[which][0]], ends[which][1], d) / self.units[d] for which, d in held(vehicle)]
+        for n, spring in enumerate(self.springs):
+            segment, xi = ends[spring.end]
+            moved = self.stacked([segment], xi, spring.derivative) - self.deformations()[[n]]
+            rows.append(moved / self.units[spring.derivative])
         return vstack(rows, format="csr")
+
+    def deformations(self) -> Rows:
+        index = np.arange(len(self.springs))
+        return csr_array(
+            ([spring.scale for spring in self.springs], (index, self._grounds + index)), (len(index), self.size)
+        )
 
     def rigid_body(self) -> Array:
         """Translation, and rotation about the nose by 1/L, shape (size, 2)."""
@@ -116,8 +156,10 @@ class LinkedBasis(Basis):
         degree = np.arange(self._order + 1)
         repeated = np.tile(values, (len(index) // max(len(values), 1), 1))
         data[:, 2:] = scale[:, None] * repeated * np.sqrt(2 * degree + 1)
-        polynomials = self._polynomials + index[:, None] + len(self.segments) * degree
-        columns = np.hstack((2 * index[:, None], 2 * index[:, None] + 1, polynomials))
+        for segment in set(index[np.isin(index, list(self._shapes))].tolist()):
+            here = index == segment
+            data[here, 2:] = self._shapes[segment].at(xi[here], derivative)
+        columns = self._columns(index)
         ends = data.shape[1] * np.arange(len(index) + 1)
         return csr_array((data.ravel(), columns.ravel(), ends), (len(index), self.size))
 
@@ -134,6 +176,8 @@ class LinkedOperators:
     motions : ndarray, shape (n, rigid)
         The rigid-body motions that the supports leave, M-orthogonal.
     basis : LinkedBasis
+    dead : sparse array, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust.
     """
 
     vehicle: Vehicle
@@ -143,6 +187,12 @@ class LinkedOperators:
     B: Rows
     motions: Array
     basis: LinkedBasis
+    dead: Rows | None = None
+
+    def stiffness(self, thrust: float) -> Rows:
+        """K0 + P K1, and that of dead loads."""
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     @property
     def shift(self) -> float:
@@ -173,7 +223,8 @@ class LinkedOperators:
         """The dense operators in the span of admissible vectors, the first of which are rigid-body motions."""
         M, K0, K1 = (np.asarray(vectors.T @ (matrix @ vectors)) for matrix in (self.M, self.K0, self.K1))
         K0[:rigid] = K0[:, :rigid] = 0.0
-        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors))
+        dead = None if self.dead is None else np.asarray(vectors.T @ (self.dead @ vectors))
+        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), dead=dead)
 
 
 def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
@@ -197,10 +248,10 @@ def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
     ((11, 11), (2, 11), (11, 0))
     """
     basis = LinkedBasis(vehicle, order)
-    M, K0, K1 = energies(vehicle, basis, sample(vehicle, basis))
+    M, K0, K1, dead = energies(vehicle, basis, sample(vehicle, basis))
     B = basis.constraints(vehicle)
-    motions = basis.rigid_body()
+    motions = basis.rigid_body()[:, : 0 if vehicle.founded else 2]
     _, singular, vt = np.linalg.svd(B[2 * len(basis.segments) - 2 :] @ motions, full_matrices=True)
     motions = motions @ vt[int(np.sum(singular > 1e-12)) :].T
     motions = normalised(vehicle, motions.T @ (M @ motions), motions)
-    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis)
+    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis, dead)

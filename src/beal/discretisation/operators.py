@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Operators:
-    """Matrices of M q'' + (K0 + P K1) q = sum of F(t) phi(x_F).
+    """Matrices of M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F).
 
     Parameters
     ----------
@@ -26,6 +26,10 @@ class Operators:
         Number of leading coordinates that are rigid-body motions: they strain nothing and are M-orthogonal to the rest.
     basis : Basis
         The shapes of the coordinates.
+    C : ndarray, shape (n, n), or None
+        Damping, symmetric; None where there is none.
+    dead : ndarray, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust.
     """
 
     vehicle: Vehicle
@@ -34,10 +38,13 @@ class Operators:
     K1: Array
     rigid: int
     basis: Basis
+    C: Array | None = None
+    dead: Array | None = None
 
     def stiffness(self, thrust: float) -> Array:
-        """K(P) = K0 + P K1, shape (n, n)."""
-        return self.K0 + thrust * self.K1
+        """K(P) = K0 + P K1, and that of dead loads, shape (n, n)."""
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     def shape(self, stations: ArrayLike, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Array:
         """Rows that read the motion at stations: the deflection (or its derivative) there is ``shape(x) @ q``.

@@ -1,4 +1,4 @@
-"""Exact solution of q'' + A q = B F(t) by the matrix exponential, breakpoint by breakpoint."""
+"""Exact solution of q'' + D q' + A q = B F(t) by the matrix exponential, breakpoint by breakpoint."""
 
 from collections.abc import Sequence
 
@@ -21,8 +21,9 @@ def exact(
     start: tuple[Array, Array],
     step: float,
     count: int,
+    damping: Array | None = None,
 ) -> tuple[Array, Array]:
-    """Time history of q'' + A q = B F(t) at multiples of a step, without error of the step.
+    """Time history of q'' + D q' + A q = B F(t) at multiples of a step, without error of the step.
 
     Each signal joins the state as (F, F') with F'' = -w^2 F, which holds between its breakpoints; the
     exponential of the matrix of (q, q', F, F') then carries all of it over any interval without a breakpoint.
@@ -41,6 +42,8 @@ def exact(
         Between the times of the output, in s.
     count : int
         Number of steps.
+    damping : ndarray, shape (n, n), optional
+        D; by default none.
 
     Returns
     -------
@@ -59,6 +62,8 @@ def exact(
     frequencies = [signals.angular_frequency(signal) for signal in loads]
     scale = max(float(np.linalg.norm(stiffness, 2)) ** 0.5, 1 / step, *frequencies)  # rates are kept as rate/scale
     matrix = _generator(stiffness, shapes, frequencies, scale)
+    if damping is not None:
+        matrix[size : 2 * size, size : 2 * size] = -damping
     nodes, lengths = _intervals([t for signal in loads for t in signals.breakpoints(signal)], step, count)
     distinct, which = np.unique(lengths, return_inverse=True)
     exponentials = [np.asarray(expm(matrix * (length * step))) for length in distinct]

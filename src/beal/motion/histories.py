@@ -31,7 +31,8 @@ class Response:
     step : float
         In s.
     mu : ndarray of complex
-        The eigenvalues omega^2 of the modes that were kept, rigid-body motions included, in rad^2/s^2.
+        The eigenvalues omega^2 of the modes that were kept, without damping, rigid-body motions included, in
+        rad^2/s^2.
     """
 
     time: Array

@@ -105,6 +105,8 @@ class Release:
         q = np.zeros(len(operators.M))
         try:
             q[elastic] = cho_solve(cho_factor(operators.K0[elastic, elastic]), load)
+            if operators.dead is not None:
+                q[elastic] = np.linalg.solve(operators.stiffness(0.0)[elastic, elastic], load)
         except LinAlgError:
             raise ModelError(
                 "initial: no static shape exists, a joint folds or slides without stiffness; "

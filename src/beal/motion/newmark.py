@@ -1,4 +1,4 @@
-"""Newmark's method for M q'' + K q = f."""
+"""Newmark's method for M q'' + C q' + K q = f."""
 
 import math
 
@@ -20,14 +20,15 @@ def newmark(
     step: float,
     beta: float = 0.25,
     gamma: float = 0.5,
+    damping: Array | None = None,
 ) -> tuple[Array, Array, Array]:
-    """Time history of M q'' + K q = f with a constant step h.
+    """Time history of M q'' + C q' + K q = f with a constant step h.
 
         q1  = q0 + h q0' + h^2 ((1/2 - beta) q0'' + beta q1'')
         q1' = q0' + h ((1 - gamma) q0'' + gamma q1'')
 
-    As the equation is linear, a step is one matrix that acts on (q, h q', h^2 q''): M + beta h^2 K is
-    factorised once.
+    As the equation is linear, a step is one matrix that acts on (q, h q', h^2 q''): M + gamma h C + beta h^2 K
+    is factorised once.
 
     Parameters
     ----------
@@ -42,6 +43,8 @@ def newmark(
     beta, gamma : float
         1/4 and 1/2 for constant mean acceleration, 1/6 and 1/2 for linear acceleration, 0 and 1/2 for central
         differences.
+    damping : ndarray, shape (n, n), optional
+        C; by default none.
 
     Returns
     -------
@@ -74,13 +77,14 @@ def newmark(
     identity, zero = np.eye(len(mass)), np.zeros_like(mass)
     predict_q = np.hstack([identity, identity, (0.5 - beta) * identity])
     predict_rate = np.hstack([zero, identity, (1 - gamma) * identity])
-    factors = lu_factor(mass + beta * step**2 * stiffness)
+    damping = zero if damping is None else damping
+    factors = lu_factor(mass + gamma * step * damping + beta * step**2 * stiffness)
     from_load = step**2 * np.asarray(lu_solve(factors, identity))
-    acceleration = -from_load @ stiffness @ predict_q
+    acceleration = -from_load @ (stiffness @ predict_q + damping @ predict_rate / step)
     transition = np.vstack([predict_q + beta * acceleration, predict_rate + gamma * acceleration, acceleration])
     forcing = load[1:] @ np.vstack([beta * from_load, gamma * from_load, from_load]).T
     q, rate = start
-    first = np.linalg.solve(mass, load[0] - stiffness @ q)
+    first = np.linalg.solve(mass, load[0] - stiffness @ q - damping @ rate)
     states = march([transition], np.zeros(len(forcing), dtype=np.intp), forcing, np.r_[q, step * rate, step**2 * first])
     q, rate, acceleration = np.split(states, 3, axis=1)
     return q, rate / step, acceleration / step**2
@@ -100,6 +104,6 @@ def largest_step(angular_frequency: float, beta: float, gamma: float) -> float:
     """Largest stable step for an undamped mode, in s: 1 / (omega sqrt(gamma/2 - beta)).
 
     Every step is stable where 2 beta >= gamma. T. J. R. Hughes (1987), The Finite Element Method, Eq.
-    (9.2.16) without damping.
+    (9.2.16) without damping, which lengthens it where gamma > 1/2 and leaves it as it is where gamma = 1/2.
     """
     return math.inf if 2 * beta >= gamma else 1 / (angular_frequency * math.sqrt(gamma / 2 - beta))

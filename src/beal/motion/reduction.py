@@ -15,7 +15,7 @@ APART = 1.01  # ratio of |mu| above which two modes may be separated; closer one
 
 @dataclass(frozen=True)
 class ReducedEquations:
-    """q = X p with p'' + A p = W^T f, the roots of A being the lowest ones of the loaded vehicle.
+    """q = X p with p'' + D p' + A p = W^T f, the roots of A being the lowest ones of the loaded vehicle undamped.
 
     Parameters
     ----------
@@ -29,6 +29,8 @@ class ReducedEquations:
         Eigenvalues of A in ascending order of modulus, in rad^2/s^2: omega^2 of the stable modes.
     rigid : int
         How many of the leading ones belong to rigid-body motions.
+    D : ndarray, shape (k, k), or None
+        Damping in coordinates p, in 1/s; None where there is none.
     """
 
     A: Array
@@ -36,6 +38,7 @@ class ReducedEquations:
     W: Array
     mu: NDArray[np.complex128]
     rigid: int
+    D: Array | None
 
 
 def reduce(operators: Operators, thrust: float, modes: int, rigid_body: bool = True) -> ReducedEquations:
@@ -44,7 +47,7 @@ def reduce(operators: Operators, thrust: float, modes: int, rigid_body: bool = T
     X spans the right and W the left invariant subspace of M^-1 K(P) that belongs to the eigenvalues of
     smallest modulus. Within it nothing is approximated: roots, and the part of any motion that lies in it,
     are those of the full equations, at a coalescence too, where eigenvectors do not exist. What is left out
-    are the higher modes.
+    are the higher modes; a damping that couples them with those that are kept acts among the latter alone.
 
     Parameters
     ----------
@@ -66,6 +69,8 @@ def reduce(operators: Operators, thrust: float, modes: int, rigid_body: bool = T
         nu, V = nu[operators.rigid :], V[:, operators.rigid :]
     mass = np.diag(nu)
     stiffness = np.eye(len(nu)) + thrust * V.T @ operators.K1 @ V
+    if operators.dead is not None:
+        stiffness += V.T @ operators.dead @ V
     mu = np.asarray(eigvals(stiffness, mass), dtype=np.complex128) - shift
     mu = mu[np.argsort(abs(mu), kind="stable")]
     keep = min(rigid + modes, len(mu))
@@ -76,7 +81,9 @@ def reduce(operators: Operators, thrust: float, modes: int, rigid_body: bool = T
     left = _graded(_invariant(stiffness.T, mass, shift, limit, keep), nu)
     left = np.asarray(np.linalg.solve(left.T @ mass @ right, left.T), dtype=np.float64).T
     A = left.T @ stiffness @ right - shift * np.eye(keep)
-    return ReducedEquations(A, V @ right, V @ left, mu[:keep], rigid)
+    X, W = V @ right, V @ left
+    D = None if operators.C is None else W.T @ operators.C @ X
+    return ReducedEquations(A, X, W, mu[:keep], rigid, D)
 
 
 def free_modes(operators: Operators) -> tuple[float, Array, Array]:

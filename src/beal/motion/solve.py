@@ -42,7 +42,7 @@ def response(
 ) -> Response:
     """Motion of a vehicle under a constant thrust and its transverse forces, read at its sensors.
 
-    Solves M q'' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest modes of the loaded vehicle.
+    Solves M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest undamped modes of the loaded vehicle.
 
     Parameters
     ----------
@@ -115,11 +115,13 @@ def response(
     loads = [force.signal for force in vehicle.forces]
     shapes = reduced.W.T @ operators.shape([force.station for force in vehicle.forces]).T
     if method == "exact":
-        p, p_rate = exact(reduced.A, shapes, loads, start, step, count)
+        p, p_rate = exact(reduced.A, shapes, loads, start, step, count, reduced.D)
     else:
         _check_step(step, shortest, float(np.sqrt(abs(reduced.mu[-1]))), beta, gamma)
         load = np.array([signals.samples(signal, step, count + 1) for signal in loads]).reshape(-1, count + 1)
-        p, p_rate, _ = newmark(np.eye(len(reduced.A)), reduced.A, (shapes @ load).T, start, step, beta, gamma)
+        p, p_rate, _ = newmark(
+            np.eye(len(reduced.A)), reduced.A, (shapes @ load).T, start, step, beta, gamma, reduced.D
+        )
     return _read(operators, reduced, p, p_rate, thrust, method, step)
 
 

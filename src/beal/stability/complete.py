@@ -75,7 +75,7 @@ def events(pencil: Pencil, limit: float, watched: int) -> list[Event]:
     neutral = rigid_body_root(pencil, limit) == "neutral"
     candidates = [(P, "flutter") for P in _double_roots(pencil, limit)]
     if not neutral:
-        candidates += [(P, "divergence") for P in _zero_roots(pencil, limit)]
+        candidates += [(P, "divergence") for P in zero_roots(pencil, limit)]
     found: list[tuple[float, float, Kind]] = []
     for thrust, kind in candidates:
         for point in _polished(pencil, thrust, kind, watched, neutral):
@@ -101,7 +101,7 @@ def events(pencil: Pencil, limit: float, watched: int) -> list[Event]:
 def _double_roots(pencil: Pencil, limit: float) -> Array:
     """Real parts of all nearly real thrusts in (0, limit] at which two roots coincide."""
     root = np.sqrt(np.diag(pencil.M))
-    A0, A1 = pencil.K0 / np.outer(root, root), limit * pencil.K1 / np.outer(root, root)
+    A0, A1 = pencil.stiffness(0.0) / np.outer(root, root), limit * pencil.K1 / np.outer(root, root)
     n = len(root)
     pairs = np.array(list(combinations(range(n), 2)))
     i, j = pairs.T
@@ -119,7 +119,7 @@ def _double_roots(pencil: Pencil, limit: float) -> Array:
         return 0.5 * (np.kron(square, unit) + np.kron(unit, square)) - np.kron(left, right) - np.kron(right, left)
 
     Q = [select.T @ matrix @ select / 2 for matrix in (operator(A0, A0), 2 * operator(A0, A1), operator(A1, A1))]
-    return _nearly_real(_quadratic_eigenvalues(*Q), limit)
+    return nearly_real(_quadratic_eigenvalues(*Q), limit)
 
 
 def _quadratic_eigenvalues(Q0: Array, Q1: Array, Q2: Array) -> Array:
@@ -132,14 +132,14 @@ def _quadratic_eigenvalues(Q0: Array, Q1: Array, Q2: Array) -> Array:
     return np.asarray(beta[np.abs(alpha) > 1e-12 * np.abs(beta)] / alpha[np.abs(alpha) > 1e-12 * np.abs(beta)])
 
 
-def _zero_roots(pencil: Pencil, limit: float) -> Array:
+def zero_roots(pencil: Pencil, limit: float) -> Array:
     """All nearly real thrusts in (0, limit] at which K(P) is singular."""
-    alpha, beta = scipy.linalg.eigvals(-limit * pencil.K1, pencil.K0, homogeneous_eigvals=True)
+    alpha, beta = scipy.linalg.eigvals(-limit * pencil.K1, pencil.stiffness(0.0), homogeneous_eigvals=True)
     finite = np.abs(alpha) > 1e-12 * np.abs(beta)
-    return _nearly_real(beta[finite] / alpha[finite], limit)
+    return nearly_real(beta[finite] / alpha[finite], limit)
 
 
-def _nearly_real(shares: Array, limit: float) -> Array:
+def nearly_real(shares: Array, limit: float) -> Array:
     near = np.abs(shares.imag) <= NEARLY_REAL * np.abs(shares)
     inside = (shares.real > SAME) & (shares.real <= 1 + NEARLY_REAL)
     return np.sort(shares[near & inside].real) * limit

@@ -12,20 +12,22 @@ from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
+from beal.stability.damped import closest_mode, damped_events, growing_root, highest_frequency, unstable_roots
 from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
-from beal.stability.refine import FIRST_ORDER, TOLERANCE, ladder, refined, settled
-from beal.stability.ridge import Instability, Search, meeting_pair
+from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined, settled
+from beal.stability.ridge import REAL, Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
-from beal.stability.zero_roots import mechanism, rigid_body_root
+from beal.stability.zero_roots import FIRST, ZERO, mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 STEPS = 36  # coarse intervals up to the default limit
 WATCHED, SPARE = 8, 3  # elastic modes watched, and kept beyond them in the reduced problem
 COMPLETE_SPARE = 2
+MOST_DAMPED = 14  # elastic modes of a damped vehicle watched: the time grows with the sixth power
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,8 @@ class CriticalThrust:
     kind : {"flutter", "divergence", "stable"}
     modes : tuple of int or None
         The elastic modes that meet, counted from 1 in order of frequency at that thrust; a diverging mode twice; 0
-        stands for a rigid-body motion.
+        stands for a rigid-body motion. Damped flutter is that of one mode, named twice: the mode of the same vehicle
+        without damping that is closest in frequency at that thrust.
     angular_frequency : float or None
         At the critical thrust, in rad/s.
     error_estimate : float or None
@@ -106,9 +109,11 @@ def critical_thrust(
     modes : int, optional
         Number of modes of the Ritz formulations; refused for the others.
     tolerance : float, optional
-        Relative error of the critical thrust to reach; by default 1e-10 for polynomials and 1e-6 for elements.
+        Relative error of the critical thrust to reach; by default 1e-10 for polynomials (1e-8 with
+        damping ratios) and 1e-6 for elements.
     method : {"fast", "complete"}
-        The ridge scan, or all critical thrusts of the reduced problem from one eigenvalue problem.
+        The ridge scan, or all critical thrusts of the reduced problem from one eigenvalue problem. Of a damped vehicle
+        always the latter.
 
     Returns
     -------
@@ -123,10 +128,10 @@ def critical_thrust(
 
     Notes
     -----
-    Undamped. The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
+    The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
     higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported. Vehicles of a
     dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
-    with many soft joints the lowest 32 modes are looked at.
+    with many soft joints the lowest 32 modes are looked at. Damped vehicles go by dense matrices whatever their size.
 
     Examples
     --------
@@ -145,8 +150,8 @@ def critical_thrust(
         if formulation in RITZ:
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
-        tolerance = tolerance or TOLERANCE[basis]
-        if basis == "legendre" and is_large(vehicle):
+        tolerance = tolerance or default_tolerance(vehicle, basis)
+        if basis == "legendre" and is_large(vehicle) and not vehicle.damped:
             large = Reduction(vehicle, formulation)
             task = replace(task, watched=large.watched)
             return _solve(task, large.operators, method, lambda found: refined(found, large.points(found), tolerance))
@@ -181,7 +186,7 @@ def critical_events(
         large = None
         operators = vehicle
         if isinstance(operators, Vehicle):
-            if formulation not in RITZ and is_large(operators):
+            if formulation not in RITZ and is_large(operators) and not operators.damped:
                 large = Reduction(operators, formulation)
                 operators = large.operators
             else:
@@ -190,7 +195,10 @@ def critical_events(
         full = pencil(operators)
         watched = large.watched if large else task.watched
         small = reduced(full, watched + COMPLETE_SPARE)
-        found = events(small, task.limit, watched)
+        if full.C is None:
+            found = events(small, task.limit, watched)
+        else:
+            found = damped_events(small, _without_damping(operators, watched), task.limit, watched)
         if large:
             large.refine()
         polished = []
@@ -209,21 +217,34 @@ def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation) 
     if limit > 20 * natural:
         raise ModelError(f"max_thrust: at most {20 * natural:.3g} is resolved for this vehicle, found {limit:.3g}")
     springs = sum(math.isfinite(k) for j in vehicle.joints for k in (j.rotational_stiffness, j.shear_stiffness))
-    return _Task(limit, math.ceil(STEPS * limit / natural) + 1, WATCHED + springs, formulation)
+    watched = WATCHED + springs
+    if vehicle.damped:
+        watched = min(watched, MOST_DAMPED)
+    return _Task(limit, math.ceil(STEPS * limit / natural) + 1, watched, formulation)
 
 
 Refine = Callable[[Instability], tuple[CriticalPoint, float]]
 
 
 def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> CriticalThrust:
+    if method not in ("fast", "complete"):
+        raise ModelError(f"method: must be fast or complete, found {method!r}")
     full = pencil(operators)
     spare = SPARE if method == "fast" else COMPLETE_SPARE
     small = reduced(full, task.watched + spare)
-    drift = rigid_body_root(small, task.limit)
-    found = _first(task, small, method)
+    drift: str
+    if full.C is None:
+        drift = rigid_body_root(small, task.limit)
+        if full.dead is not None:
+            _check_dead_loads(small, drift == "tumbling")
+        found = _first(task, small, method)
+    elif full.dead is not None:
+        raise ModelError("damping: is not supported beside dead loads (axial_load, gravity); leave one of the two out")
+    else:
+        drift, found = _first_damped(task, small, _without_damping(operators, task.watched))
     watched = min(task.watched, len(small.M) - small.rigid)
     rigid_body: Literal["neutral", "tumbling", "held"]
-    floats = operators.rigid > 0 or operators.vehicle.free_free
+    floats = operators.rigid > 0 or (operators.vehicle.free_free and not operators.vehicle.founded)
     rigid_body = "tumbling" if drift == "tumbling" else "neutral" if floats else "held"
     nothing = CriticalThrust(None, "stable", None, None, None, task.formulation, task.limit, watched, rigid_body)
     result = nothing
@@ -252,21 +273,51 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     return result
 
 
+def _check_dead_loads(small: Pencil, tumbling: bool) -> None:
+    """Refuse a vehicle that its dead loads alone make unstable."""
+    low = small.roots(0.0)[int(tumbling) :]
+    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low) + ZERO * small.shift):
+        raise ModelError("axial_load: the dead loads alone, axial loads and gravity, make the vehicle unstable")
+
+
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
-    if method not in ("fast", "complete"):
-        raise ModelError(f"method: must be fast or complete, found {method!r}")
     if kind := mechanism(small, task.limit):
         modes = (1, 1) if kind == "divergence" else meeting_pair(small, 0.0, 0.0)
         return Instability(_start(0.0, 0.0), kind, modes)
     if method == "fast":
         return Search(small, task.limit, task.steps, task.watched).first()
     own = rigid_body_root(small, task.limit) == "tumbling"  # a root that may come back and leave again
-    found = events(small, task.limit, task.watched)
+    return _first_of(events(small, task.limit, task.watched), own)
+
+
+def _first_damped(task: _Task, small: Pencil, undamped: Pencil) -> tuple[str, Instability | None]:
+    """Where the rigid-body motion goes under the first thrust, and the first instability of a damped pencil."""
+    if mechanism(undamped, task.limit):
+        return "", _first(task, undamped, "fast")
+    found = damped_events(small, undamped, task.limit, task.watched)
+    top = highest_frequency(undamped, task.watched)
+    first = found[0].thrust if found else task.limit
+    drift: str = rigid_body_root(undamped, task.limit)
+    own = unstable_roots(small, min(FIRST * task.limit, first / 2), top) if small.rigid else 0
+    if own:
+        return "tumbling", _first_of(found, own)
+    if W := growing_root(small, first / 2, top):  # from the first thrust on
+        return drift, Instability(_start(0.0, W), "flutter", (closest_mode(undamped, first / 2, W, task.limit),) * 2)
+    return drift, _first_of(found, 0)
+
+
+def _first_of(found: list[Event], own: int) -> Instability | None:
+    """The first instability beside a rigid-body motion that has so many unstable roots of its own."""
     for event in found:
-        if event.unstable > max(event.before, own and event.kind == "divergence"):
+        if event.unstable > max(event.before, own if event.kind == "divergence" else 0):
             border = sum(abs(other.thrust - event.thrust) < BORDER * event.thrust for other in found) > 1
             return Instability(_start(event.thrust, event.W), event.kind, event.modes, border)
     return None
+
+
+def _without_damping(operators: Operators, watched: int) -> Pencil:
+    """The reduced pencil of a damped vehicle that has lost its damping."""
+    return reduced(pencil(replace(operators, C=None)), watched + COMPLETE_SPARE)
 
 
 def _start(thrust: float, W: float) -> CriticalPoint:

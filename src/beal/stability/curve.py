@@ -9,6 +9,7 @@ from scipy.optimize import linear_sum_assignment
 from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.stability.damped_roots import NEUTRAL, damped_modes
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Array, ComplexArray, pencil
 from beal.stability.spectrum import exponents, lowest
@@ -17,6 +18,7 @@ from beal.vehicle.vehicle import Vehicle
 
 SPARE = 3  # roots followed beyond those asked for, so that a mode that rises out of them is not lost
 LIKENESS = 0.6  # below this likeness of the shapes a step is halved
+SLOWER = 1e-2  # what decides between two real roots that are equally near
 HALVINGS = 6
 ORDER = 14
 
@@ -30,7 +32,8 @@ class ThrustCurve:
     thrust : ndarray, shape (points,)
         In N.
     angular_frequency, growth_rate : ndarray, shape (points, modes)
-        In rad/s and 1/s. Of a coalesced pair one branch grows and the other decays.
+        In rad/s and 1/s. Of a coalesced pair one branch grows and the other decays; of a mode that damping or
+        divergence splits into two real roots the one that decays more slowly is followed.
     formulation : str
     """
 
@@ -45,6 +48,7 @@ class _Roots:
     thrust: float
     W: ComplexArray
     vectors: ComplexArray
+    s: ComplexArray
 
 
 def thrust_curve(
@@ -102,16 +106,24 @@ def thrust_curve(
     thrusts = np.linspace(0.0, to or default_limit(operators.vehicle), points)
 
     def roots(thrust: float) -> _Roots:
-        return _Roots(thrust, *lowest(full, thrust, followed))
+        if full.C is None:
+            W, vectors = lowest(full, thrust, followed)
+            return _Roots(thrust, W, vectors, exponents(W))
+        s, vectors = damped_modes(full, thrust, followed + full.rigid + SPARE)  # more: a mode may split in two
+        return _Roots(thrust, -(s**2), vectors, s)
 
     with one_thread():
         state = roots(0.0)
-        columns = np.argsort(np.abs(state.W))[full.rigid : full.rigid + modes]
-        history = [state.W[columns]]
+        state = _Roots(0.0, state.W[:followed], state.vectors[:, :followed], state.s[:followed])
+        if full.C is None:
+            columns = np.argsort(np.abs(state.W))[full.rigid : full.rigid + modes]
+        else:
+            columns = np.flatnonzero(np.abs(state.s) > NEUTRAL * np.sqrt(full.shift))[:modes]
+        history = [state.s[columns]]
         for thrust in thrusts[1:]:
             state = _follow(state, float(thrust), roots, full.M, HALVINGS)
-            history.append(state.W[columns])
-    s = exponents(np.array(history))
+            history.append(state.s[columns])
+    s = np.array(history)
     return ThrustCurve(thrusts, np.abs(s.imag), np.asarray(s.real), formulation)
 
 
@@ -121,9 +133,10 @@ def _follow(state: _Roots, thrust: float, roots: Callable[[float], _Roots], M: A
     likeness = np.abs(state.vectors.conj().T @ M @ new.vectors)
     scale = np.abs(state.W[:, None]) + np.abs(new.W) + np.ptp(np.abs(state.W)) / len(state.W)
     distance = np.abs(state.W[:, None] - new.W) / scale
-    before, after = linear_sum_assignment(distance + 1 - likeness)
+    slower = np.where(new.s.imag == 0, np.argsort(np.argsort(new.s.real)) / len(new.s), 0.0)  # of a pair of real roots
+    before, after = linear_sum_assignment(distance + 1 - likeness - SLOWER * slower)
     order = after[np.argsort(before)]
     if halvings and likeness[before, after][:-SPARE].min(initial=1.0) < LIKENESS:
         middle = _follow(state, (state.thrust + thrust) / 2, roots, M, halvings - 1)
         return _follow(middle, thrust, roots, M, 0 if halvings == 1 else halvings - 1)
-    return _Roots(thrust, new.W[order], new.vectors[:, order])
+    return _Roots(thrust, new.W[order], new.vectors[:, order], new.s[order])

@@ -177,7 +177,7 @@ def chained(pencil: Pencil, point: CriticalPoint) -> tuple[Array, Array]:
 def _point(
     pencil: Pencil, thrust: float, W: float, converged: bool, at: _Bordered, change: Array, slope: float
 ) -> CriticalPoint:
-    magnitude = _terms(pencil.K0) + abs(thrust) * _terms(pencil.K1) + abs(W) * _terms(pencil.M)
+    magnitude = _terms(pencil.stiffness(0.0)) + abs(thrust) * _terms(pencil.K1) + abs(W) * _terms(pencil.M)
     rounding = ROUNDING * float(np.abs(at.left) @ magnitude @ np.abs(change))
     uncertainty = rounding / abs(slope) + 4 * EPS * abs(thrust) if slope else np.inf
     return CriticalPoint(float(thrust), float(W), converged, float(uncertainty), at.right, at.left)

@@ -15,10 +15,12 @@ import scipy.linalg
 
 from beal.discretisation.basis import segments
 from beal.discretisation.build import Formulation, check_formulation, inertial
+from beal.discretisation.cuts import ALL
 from beal.discretisation.linked import LinkedOperators, linked
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError
 from beal.stability.double_root import CriticalPoint, chained
+from beal.stability.limit import waves
 from beal.stability.pencil import CORRECTED, TWICE_CORRECTED, Array, Pencil, pencil
 from beal.stability.refine import LAST_ORDER, polish
 from beal.stability.ridge import Instability
@@ -37,7 +39,7 @@ SAME = 1e-13  # relative change below which a point, or the roots beside the shi
 
 def is_large(vehicle: Vehicle) -> bool:
     """Whether a vehicle has so many segments that its dense matrices take longer than their reduction."""
-    return len(segments(vehicle)) >= SEGMENTS
+    return len(segments(vehicle, few=ALL)) >= SEGMENTS
 
 
 class Reduction:
@@ -113,11 +115,12 @@ class Reduction:
         """Take in what the vectors of the double root leave unbalanced; whether there was anything."""
         system, known = self.system, self._vectors.shape[1]
         kept = self._vectors[:, known - len(full.M) :]
-        sides = zip((system.K1, system.K1.T), (point.right, point.left), chained(full, point), strict=True)
-        for K1, first, second in sides:
+        loaded = system.stiffness(point.thrust)
+        sides = zip((loaded, loaded.T), (point.right, point.left), chained(full, point), strict=True)
+        for stiffness, first, second in sides:
             size = np.array([np.linalg.norm(first), np.linalg.norm(second)])
             x = kept @ (np.column_stack((first, second)) / size)
-            unbalanced = system.K0 @ x + point.thrust * (K1 @ x) - point.W * (system.M @ x)
+            unbalanced = stiffness @ x - point.W * (system.M @ x)
             unbalanced[:, 1] -= system.M @ x[:, 0] * size[0] / size[1]
             self._vectors = _extended(system, self._vectors, system.deflected(unbalanced), NOISE)
         return self._vectors.shape[1] > known
@@ -132,7 +135,7 @@ class Reduction:
                 break
             before = found.W
             x = self._vectors[:, self._left_out :] @ (found.shapes / np.sqrt(size))
-            unbalanced = system.K0 @ x + thrust * (system.K1 @ x) - (system.M @ x) * found.W
+            unbalanced = system.stiffness(thrust) @ x - (system.M @ x) * found.W
             loads = np.hstack((unbalanced.real, unbalanced.imag))
             self._vectors = _extended(system, self._vectors, system.deflected(loads), NOISE)
         return found
@@ -144,9 +147,10 @@ class Reduction:
         modes = self._lowest_modes(BLOCK + loose, least, max(least, MOST_WATCHED + loose))
         low = np.hstack((system.motions, modes[:, : CORRECTED + loose]))
         groups = [modes]
-        for K1 in (system.K1, system.K1.T):
-            first = system.deflected(K1 @ low)
-            groups += [first, system.deflected(K1 @ first[:, :TWICE_CORRECTED])]
+        for load in (system.K1, system.dead):
+            for side in () if load is None else (load, load.T):
+                first = system.deflected(side @ low)
+                groups += [first, system.deflected(side @ first[:, :TWICE_CORRECTED])]
         self._vectors = self._vectors[:, :rigid]
         for group in groups:
             self._vectors = _extended(system, self._vectors, group)
@@ -174,21 +178,15 @@ class Reduction:
 
 
 def _first_order(vehicle: Vehicle) -> int:
-    """Lowest order to begin with: the longest stage, measured in waves, decides."""
-    waves = _waves(vehicle)
-    return 2 + 2 * math.ceil(3 * float(waves.max() / waves.sum()))
+    """Lowest order to begin with: the longest segment, measured in waves, decides."""
+    each = waves(vehicle)
+    return 2 + 2 * math.ceil(3 * float(each.max() / each.sum()) - 1e-9)
 
 
 def _highest_root(vehicle: Vehicle) -> float:
     """W below which the rigidly jointed vehicle would have ``WATCHED`` modes (WKB)."""
-    return ((WATCHED + 0.5) * math.pi / float(_waves(vehicle).sum())) ** 4
-
-
-def _waves(vehicle: Vehicle) -> Array:
-    """Integral over each stage of (m/EI)^(1/4), the wave number at W = 1, with the point masses smeared."""
-    length, mass, stiffness = np.array([(s.length, s.mass_per_length, s.bending_stiffness) for s in vehicle.stages]).T
-    smeared = vehicle.mass / float(length @ mass)
-    return np.asarray(length * (smeared * mass / stiffness) ** 0.25)
+    smeared = vehicle.mass / sum(stage.mass for stage in vehicle.stages)  # the point masses
+    return ((WATCHED + 0.5) * math.pi / float(waves(vehicle).sum())) ** 4 / smeared
 
 
 def _extended(system: LinkedOperators, vectors: Array, added: Array, floor: float = 0.0) -> Array:

@@ -19,7 +19,7 @@ UNCOUPLED = 1e-11  # a rigid-body motion that drives the elastic coordinates les
 
 @dataclass(frozen=True)
 class Pencil:
-    """K(P) = K0 + P K1 and M without the rigid-body motions that do not act on the elastic ones.
+    """K(P) = K0 + P K1, M and C without the rigid-body motions that do not act on the elastic ones.
 
     Parameters
     ----------
@@ -28,6 +28,10 @@ class Pencil:
         Number of rigid-body motions kept, the leading coordinates.
     shift : float
         A W > 0 below the elastic range, which makes K0 + shift M definite.
+    C : ndarray, shape (n, n), or None
+        Damping; None where there is none.
+    dead : ndarray, shape (n, n), optional
+        Stiffness of the loads that do not grow with the thrust, not part of K0.
     """
 
     K0: Array
@@ -35,10 +39,13 @@ class Pencil:
     M: Array
     rigid: int
     shift: float
+    C: Array | None = None
+    dead: Array | None = None
 
     def stiffness(self, thrust: float) -> Array:
         """K(P), shape (n, n)."""
-        return self.K0 + thrust * self.K1
+        stiffness = self.K0 + thrust * self.K1
+        return stiffness if self.dead is None else stiffness + self.dead
 
     def roots(self, thrust: float) -> ComplexArray:
         """All W in order of their real parts, shape (n,).
@@ -57,22 +64,35 @@ class Pencil:
         inertia, rotation = scipy.linalg.eigh(M, K0 + self.shift * M)
         inertia, rotation = np.maximum(inertia[::-1], LIGHT * inertia[-1]), rotation[:, ::-1]
         K0 = np.eye(len(M)) - self.shift * np.diag(inertia)
-        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift)
+        C, dead = (
+            None if matrix is None else rotation.T @ (vectors.T @ matrix @ vectors) @ rotation
+            for matrix in (self.C, self.dead)
+        )
+        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift, C, dead)
 
 
 def pencil(operators: Operators) -> Pencil:
     """The stability problem of a discretised vehicle.
 
-    A rigid-body motion whose column of K1 vanishes on the elastic coordinates only follows them (theory, section 5):
-    it contributes a zero root for every thrust and is left out.
+    A rigid-body motion whose columns of K1 and C vanish on the coordinates that are kept only follows them (theory,
+    section 5): it contributes zero roots for every thrust and is left out.
     """
     rigid = operators.rigid
-    drive = np.abs(operators.K1[rigid:, :rigid]).max(axis=0, initial=0.0)
-    kept = np.flatnonzero(drive > UNCOUPLED * np.abs(operators.K1[rigid:, rigid:]).max(initial=0.0))
-    index = np.concatenate((kept, np.arange(rigid, len(operators.M))))
+    matrices = [matrix for matrix in (operators.K1, operators.C, operators.dead) if matrix is not None]
+    index = np.arange(rigid, len(operators.M))
+    for _ in range(rigid):  # one motion may act on the elastic coordinates through another
+        others = np.setdiff1d(np.arange(rigid), index)
+        drives = np.zeros(len(others), dtype=bool)
+        for matrix in matrices:
+            drive = np.abs(matrix[np.ix_(index, others)]).max(axis=0, initial=0.0)
+            drives |= drive > UNCOUPLED * np.abs(matrix[rigid:, rigid:]).max(initial=0.0)
+        index = np.concatenate((others[drives], index))
+    index.sort()
     select = np.ix_(index, index)
     shift = operators.vehicle.scales.angular_frequency**2
-    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], len(kept), shift)
+    C, dead = (None if matrix is None else matrix[select] for matrix in (operators.C, operators.dead))
+    kept = len(index) - (len(operators.M) - rigid)
+    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], kept, shift, C, dead)
 
 
 def reduced(full: Pencil, modes: int = MODES) -> Pencil:
@@ -85,15 +105,18 @@ def reduced(full: Pencil, modes: int = MODES) -> Pencil:
     modes = min(modes + full.rigid, len(static))
     _, vectors = scipy.linalg.eigh(full.M, static)
     vectors = vectors[:, ::-1]  # largest inertia first: the lowest modes, to full accuracy
-    if modes + 2 * (CORRECTED + TWICE_CORRECTED) >= len(static):
+    sides = [side for load in (full.K1, full.dead) if load is not None for side in (load, load.T)]
+    sides += [] if full.C is None else [full.C]
+    if modes + len(sides) * (CORRECTED + TWICE_CORRECTED) >= len(static):
         return full.projected(vectors)
     factor = scipy.linalg.cho_factor(static)
     low = vectors[:, : full.rigid + CORRECTED]
-    sides = (full.K1, full.K1.T)
     first = [scipy.linalg.cho_solve(factor, K1 @ low) for K1 in sides]
     second = [scipy.linalg.cho_solve(factor, K1 @ w[:, :TWICE_CORRECTED]) for K1, w in zip(sides, first, strict=True)]
     span = np.hstack((vectors[:, :modes], *first, *second))
     upper = scipy.linalg.cholesky(static)
-    left, singular, _ = np.linalg.svd(upper @ (span / np.linalg.norm(upper @ span, axis=0)), full_matrices=False)
+    span = upper @ span
+    size = np.linalg.norm(span, axis=0)
+    left, singular, _ = np.linalg.svd(span[:, size > 0] / size[size > 0], full_matrices=False)
     independent = left[:, singular > 1e-8 * singular[0]]
     return full.projected(scipy.linalg.solve_triangular(upper, independent))

@@ -1,12 +1,14 @@
 """From a critical point of a reduced problem to that of the vehicle, with an estimate of what is left of the error."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from beal.discretisation.build import BasisName, Formulation, discretise
 from beal.errors import ConvergenceError
+from beal.stability.damped import with_rates
 from beal.stability.double_root import CriticalPoint, coalescence, divergence
+from beal.stability.imaginary_root import imaginary_root
 from beal.stability.pencil import Pencil, pencil, reduced
 from beal.stability.ridge import Instability, Kind
 from beal.stability.zero_roots import rigid_body_root
@@ -15,12 +17,20 @@ from beal.vehicle.vehicle import Vehicle
 FIRST_ORDER = {"legendre": 8, "hermite": 8}
 LAST_ORDER = {"legendre": 26, "hermite": 64}
 TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
+MODAL_TOLERANCE = 1e-8  # where damping ratios reach up to modes that no discretisation resolves
 FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
 SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
 
 
+def default_tolerance(vehicle: Vehicle, basis: BasisName) -> float:
+    """Relative error of the critical thrust that is reached without effort."""
+    return max(TOLERANCE[basis], MODAL_TOLERANCE if any(vehicle.damping.ratios) else 0.0)
+
+
 def polish(full: Pencil, kind: Kind, thrust: float, W: float) -> CriticalPoint:
     """The critical point of a full pencil next to a guess."""
+    if full.C is not None:
+        return imaginary_root(full, thrust, W) if kind == "flutter" else divergence(with_rates(full), thrust)
     if kind == "flutter":
         return coalescence(full, thrust, W)
     return divergence(full, thrust, rigid_body_root(reduced(full), thrust) == "neutral")
@@ -61,7 +71,12 @@ def _remaining(before: float, last: float, rounding: float) -> float:
     return last * last / before if last > rounding else SAMPLED * last
 
 
-def ladder(vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability) -> Iterator[CriticalPoint]:
+Polish = Callable[[Pencil, Kind, float, float], CriticalPoint]
+
+
+def ladder(
+    vehicle: Vehicle, formulation: Formulation, basis: BasisName, found: Instability, polish: Polish = polish
+) -> Iterator[CriticalPoint]:
     """The critical point in finer and finer discretisations, each started from the one before."""
     thrust, W = found.point.thrust, found.point.W
     order = FIRST_ORDER[basis]

@@ -107,7 +107,7 @@ class Search:
             height = np.abs(self.state(thrust).heights)
             if len(height):
                 scale = np.where((~apart | (scale == 0)) & (scale <= FLAT * height), height, scale)
-        return scale
+        return np.where(scale > 0, scale, 1.0)  # 0 between roots that stay zero
 
     def state(self, thrust: float) -> State:
         """Roots and ridges at one thrust."""

@@ -7,13 +7,14 @@ import scipy.linalg
 
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.stability.damped_roots import NEUTRAL, damped_modes
 from beal.stability.pencil import Array, ComplexArray, Pencil, pencil
 from beal.stability.zero_roots import ZERO
 
 
 @dataclass(frozen=True)
 class Spectrum:
-    """The lowest elastic modes at a thrust, in order of frequency.
+    """The lowest elastic modes at a thrust, undamped in order of frequency.
 
     Parameters
     ----------
@@ -25,22 +26,30 @@ class Spectrum:
         Coordinates of the mode shapes, to be read with ``operators.shape(x) @ shapes``.
     rigid_body_modes : int
         Number of rigid-body motions of the unloaded vehicle, which are not listed.
+    s : ndarray, shape (count,), or None
+        Roots of a damped vehicle with Im s >= 0, in order of modulus, W being -s^2; an overdamped mode is there with
+        both of its real roots. None where nothing is damped: s = sqrt(-W).
     """
 
     thrust: float
     W: ComplexArray
     shapes: ComplexArray
     rigid_body_modes: int
+    s: ComplexArray | None = None
 
     @property
     def angular_frequency(self) -> Array:
         """Im s of the root s = sqrt(-W), in rad/s, shape (count,)."""
-        return np.abs(exponents(self.W).imag)
+        return np.abs(self._exponents.imag)
 
     @property
     def growth_rate(self) -> Array:
         """Re s, in 1/s, shape (count,); a coalesced pair has one positive and one negative."""
-        return np.asarray(exponents(self.W).real)
+        return np.asarray(self._exponents.real)
+
+    @property
+    def _exponents(self) -> ComplexArray:
+        return exponents(self.W) if self.s is None else self.s
 
 
 def exponents(W: ComplexArray) -> ComplexArray:
@@ -82,6 +91,8 @@ def spectrum(operators: Operators, thrust: float = 0.0, count: int = 6) -> Spect
     elastic = len(full.M) - full.rigid
     if not 1 <= count <= elastic:
         raise ModelError(f"count: must lie between 1 and {elastic} for this discretisation, found {count}")
+    if full.C is not None:
+        return _damped(operators, full, thrust, count)
     W, shapes = lowest(full, thrust, count + full.rigid)
     if full.rigid:  # the smallest root is that of the rigid-body motion, unless the vehicle tumbles
         smallest = 0 if W[0].real < -ZERO * full.shift else np.abs(W).argmin()
@@ -89,6 +100,14 @@ def spectrum(operators: Operators, thrust: float = 0.0, count: int = 6) -> Spect
     embedded = np.zeros((len(operators.M), count), dtype=complex)
     embedded[len(operators.M) - len(shapes) :] = shapes
     return Spectrum(float(thrust), W, embedded, operators.rigid)
+
+
+def _damped(operators: Operators, full: Pencil, thrust: float, count: int) -> Spectrum:
+    s, shapes = damped_modes(full, thrust, count + 2 * full.rigid)
+    elastic = np.argsort(np.abs(s) < NEUTRAL * np.sqrt(full.shift), kind="stable")[:count]  # zero roots last
+    embedded = np.zeros((len(operators.M), count), dtype=complex)
+    embedded[len(operators.M) - len(shapes) :] = shapes[:, elastic]
+    return Spectrum(float(thrust), -(s[elastic] ** 2), embedded, operators.rigid, s[elastic])
 
 
 def lowest(full: Pencil, thrust: float, count: int) -> tuple[ComplexArray, ComplexArray]:

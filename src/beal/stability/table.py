@@ -22,11 +22,12 @@ import scipy.linalg
 from numpy.polynomial import chebyshev
 
 from beal.discretisation import Formulation, discretise
-from beal.discretisation.basis import segments
 from beal.discretisation.operators import Operators
 from beal.stability.kernels import compiled_kernels
+from beal.stability.limit import waves
 from beal.stability.pencil import Array, pencil, reduced
 from beal.vehicle.paths import with_values
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 TANGENCY = "thrust.tangency"
@@ -86,7 +87,7 @@ def reference(vehicle: Vehicle, path: str) -> float:
     """k_ref of a spring: the stiffness of the stage behind the joint against the same motion."""
     joint, name = _spring(path)
     power = 1 if name == "rotational_stiffness" else 3
-    return vehicle.stages[joint + 1].bending_stiffness / vehicle.length**power
+    return mean(vehicle.stages[joint + 1].bending_stiffness) / vehicle.length**power
 
 
 def weights(vehicle: Vehicle, paths: Sequence[str], values: Array) -> Array:
@@ -169,13 +170,8 @@ def _in_order(table: Array, paths: Sequence[str]) -> Array:
 
 def _order(vehicle: Vehicle) -> int:
     """Order of the finer discretisation, from the share of the half waves that fall on the longest segment."""
-    chain = segments(vehicle)
-    stages = [vehicle.stages[segment.stage] for segment in chain]
-    phases = [
-        segment.length * (stage.mass_per_length / stage.bending_stiffness) ** 0.25
-        for segment, stage in zip(chain, stages, strict=True)
-    ]
-    return math.ceil(LOWEST_ORDER + ORDERS_MORE * max(phases) / sum(phases))
+    phases = waves(vehicle)
+    return math.ceil(LOWEST_ORDER + ORDERS_MORE * float(phases.max() / phases.sum()) - 1e-9)
 
 
 def _patches(operators: Operators, springs: Sequence[str], ends: tuple[float, float], edges: Array) -> Array:
@@ -190,7 +186,7 @@ def _patches(operators: Operators, springs: Sequence[str], ends: tuple[float, fl
     x_P, x_W = (np.cos(np.pi * (np.arange(n + 1) + 0.5) / (n + 1)) for n in (THRUST_DEGREE, W_DEGREE))
     thrusts = ends[0] + (ends[1] - ends[0]) * (1 + x_P) / 2
     W = edges[:-1, None] + np.diff(edges)[:, None] * (1 + x_W) / 2
-    values = characteristic(full.K0 + rows @ rows.T, full.K1, full.M, rows, thrusts, W.ravel())
+    values = characteristic(full.stiffness(0.0) + rows @ rows.T, full.K1, full.M, rows, thrusts, W.ravel())
     to_P, to_W = (np.linalg.inv(chebyshev.chebvander(x, len(x) - 1)) for x in (x_P, x_W))
     return np.einsum("pi,wj,siqj->qspw", to_P, to_W, values.reshape(-1, len(thrusts), *W.shape), optimize=True)
 

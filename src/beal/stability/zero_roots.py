@@ -40,7 +40,7 @@ def mechanism(pencil: Pencil, limit: float) -> Literal["flutter", "divergence"] 
 def _gained(pencil: Pencil, limit: float) -> ComplexArray:
     """Stiffnesses that the strainless motions of a reduced pencil gain from the first thrust."""
     count = int(np.sum(np.diag(pencil.K0) < STRAINLESS))  # the leading coordinates
-    K1 = FIRST * limit * pencil.K1
+    K1 = FIRST * limit * pencil.K1 + (0.0 if pencil.dead is None else pencil.dead)
     along, back, forth = K1[:count, :count], K1[:count, count:], K1[count:, :count]
     through = back @ (forth / np.diag(pencil.K0)[count:, None])
     gained = np.linalg.eigvals(along - through).astype(complex)

@@ -47,7 +47,7 @@ def solve_together(vehicle: Vehicle, paths: tuple[str, ...], values: Array, solv
     kind, mode = np.full(count, UNDECIDED), np.zeros(count, dtype=np.intp)
     thrust, W, error = np.full((3, count), np.nan)
     result = Found(kind, mode, thrust, W, error, np.zeros(count, dtype=bool))
-    if solve.formulation not in TABULATED:
+    if solve.formulation not in TABULATED or vehicle.damped:  # the tables are of undamped roots
         return result
     natural = default_limit(vehicle)
     limit = solve.max_thrust or natural

@@ -18,6 +18,7 @@ from beal.study.study import Study
 Block = tuple[slice, ...]
 
 ALONE, TOGETHER, TABLES = 8e-3, 5e-6, 0.03  # seconds: of one point by itself, of one with tables, of making the tables
+DAMPED = 0.06  # seconds of one damped point, always by itself
 SHORT, LONG = 0.2, 1.0  # seconds of a block; writing it takes some 0.01
 ENOUGH, MOST = 64, 50_000  # blocks to share among workers, and files of a variable that a folder bears
 
@@ -65,7 +66,9 @@ class Blocks:
 
 def together(study: Study) -> bool:
     """Whether enough points share a table for it to pay."""
-    return study.solve.formulation not in RITZ and TABLES + _sharing(study) * TOGETHER < _sharing(study) * ALONE
+    if study.solve.formulation in RITZ or _damped(study):
+        return False
+    return TABLES + _sharing(study) * TOGETHER < _sharing(study) * ALONE
 
 
 def seconds(study: Study) -> float:
@@ -89,7 +92,7 @@ def blocks(study: Study) -> Blocks:
     target = min(max(seconds(study) / ENOUGH, SHORT), LONG)
     target = max(target, seconds(study) / MOST)
     rows, sharing = target / _row(study), _sharing(study)
-    room = rows * sharing if rows >= 1 else min(sharing, target / (TOGETHER if together(study) else ALONE))
+    room = rows * sharing if rows >= 1 else min(sharing, target / (TOGETHER if together(study) else _alone(study)))
     sizes = [1] * len(study.shape)
     shared = [tabulated(study.vehicle, path) for path in study.axes]
     order = sorted(range(len(sizes)), key=lambda axis: (shared[axis], axis), reverse=True)
@@ -109,4 +112,14 @@ def _sharing(study: Study) -> int:
 
 def _row(study: Study) -> float:
     """Seconds for all points that share a table."""
-    return TABLES + _sharing(study) * TOGETHER if together(study) else _sharing(study) * ALONE
+    return TABLES + _sharing(study) * TOGETHER if together(study) else _sharing(study) * _alone(study)
+
+
+def _alone(study: Study) -> float:
+    """Seconds of a point by itself."""
+    return DAMPED if _damped(study) else ALONE
+
+
+def _damped(study: Study) -> bool:
+    """Whether some of the vehicles are damped."""
+    return study.vehicle.damped or any(path.endswith("damping") for path in study.axes)

@@ -7,9 +7,10 @@ from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
 from beal.discretisation import Formulation
 from beal.errors import ModelError
+from beal.interop.files import load
 from beal.study.study import Solve, Study, spaced
 from beal.vehicle.base import Part, problems, si
-from beal.vehicle.file import load, read_toml
+from beal.vehicle.file import read_toml
 
 MAX_AXIS = 1_000_000
 

@@ -21,6 +21,9 @@ CONTAINERS = {
 }
 
 
+PLAIN, TABLE = "a plain value", "a table"  # tags of the forms of a field, in pydantic's locations only
+
+
 class _Checked(ModelMetaclass):
     """Turns pydantic's report into a ModelError, for direct construction only: nested parts keep their paths."""
 
@@ -55,7 +58,7 @@ def path(loc: tuple[int | str, ...]) -> str:
     for before, part in zip(("", *loc), loc, strict=False):
         if isinstance(part, int):
             text += f"[{part}]"
-        elif before != "signal":  # what follows there is the tag of the signal's kind
+        elif part not in (PLAIN, TABLE) and before != "signal":  # after which comes the tag of the signal's kind
             text += f".{part}" if text else part
     return text
 

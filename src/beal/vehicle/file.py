@@ -3,7 +3,7 @@
 import json
 import os
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,7 @@ def load(path: str | os.PathLike[str]) -> Vehicle:
     ModelError
         With every problem in the file, each with its path, or the reason why the file cannot be read.
     """
-    return _vehicle(read_toml(path), str(path))
+    return vehicle_from(read_toml(path), str(path))
 
 
 def loads(text: str, source: str = "model") -> Vehicle:
@@ -60,7 +60,7 @@ def loads(text: str, source: str = "model") -> Vehicle:
     >>> loads("[[stage]]\\nlength = '2 km'\\nmass_per_length = 2.0\\nbending_stiffness = 3.0").length
     2000.0
     """
-    return _vehicle(_parsed(text, source), source)
+    return vehicle_from(_parsed(text, source), source)
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -81,16 +81,7 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     source = str(path)
     try:
-        with Path(path).open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise ModelError(f"cannot be read: {error.strerror or error}", source) from None
-    except ValueError as error:
-        raise ModelError(f"is not a file name: {error}", repr(source)) from None
-    if len(content) > LARGEST_FILE:
-        raise ModelError(f"is larger than {LARGEST_FILE // 10**6} MB: expected a text file in TOML", source)
-    try:
-        text = content.decode("utf-8-sig")
+        text = read_bytes(path, LARGEST_FILE, "a text file in TOML").decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise ModelError(
             f"is not text in UTF-8 (byte {error.start} is wrong): expected a text file in TOML", source
@@ -98,7 +89,58 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     return _parsed(text, source)
 
 
-def _vehicle(data: dict[str, Any], source: str) -> Vehicle:
+def read_bytes(path: str | os.PathLike[str], largest: int, expected: str) -> bytes:
+    """Content of a file that is not larger than it should be.
+
+    Parameters
+    ----------
+    path : str or path-like
+    largest : int
+        In bytes.
+    expected : str
+        What kind of file it should be, for the message.
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    ModelError
+        With the reason why the file cannot be read.
+    """
+    source = str(path)
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(largest + 1)
+    except OSError as error:
+        raise ModelError(f"cannot be read: {error.strerror or error}", source) from None
+    except ValueError as error:
+        raise ModelError(f"is not a file name: {error}", repr(source)) from None
+    if len(content) > largest:
+        raise ModelError(f"is larger than {largest // 10**6} MB: expected {expected}", source)
+    return content
+
+
+def vehicle_from(data: dict[str, Any], source: str) -> Vehicle:
+    """The vehicle that the content of a model file describes.
+
+    Parameters
+    ----------
+    data : dict
+        As TOML gives it.
+    source : str
+        What error messages call it.
+
+    Returns
+    -------
+    Vehicle
+
+    Raises
+    ------
+    ModelError
+        With every problem, each with its path.
+    """
     if not data:
         raise ModelError("is empty, expected at least one [[stage]]", source)
     fields = {name: field.alias or name for name, field in Vehicle.model_fields.items()}
@@ -146,14 +188,53 @@ def dumps(vehicle: Vehicle) -> str:
     bending_stiffness = 3000.0
     <BLANKLINE>
     """
+    return "\n".join(_blocks(vehicle, {}))
+
+
+def dumps_rest(vehicle: Vehicle, said: Mapping[str, Collection[str]]) -> str:
+    """TOML text of what another format cannot say.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    said : mapping of str to collection of str
+        For each kind of part the keys that the other format holds.
+
+    Returns
+    -------
+    str
+        As many tables of a kind as the vehicle has parts, or none.
+
+    Examples
+    --------
+    >>> from beal.vehicle import catalog
+    >>> said = {"stage": ["length", "mass_per_length"], "point_mass": ["station", "mass"]}
+    >>> print(dumps_rest(catalog.pflueger(0.5), said))
+    title = "Pflüger's column"
+    units = "nondimensional"
+    <BLANKLINE>
+    [[stage]]
+    bending_stiffness = 1.0
+    <BLANKLINE>
+    [support]
+    nose = "clamped"
+    <BLANKLINE>
+    """
+    return "\n".join(_blocks(vehicle, said))
+
+
+def _blocks(vehicle: Vehicle, said: Mapping[str, Collection[str]]) -> Iterator[str]:
     given = list(_given(vehicle))
-    blocks = ["".join(f"{key} = {_literal(value)}\n" for key, value in given if not _is_table(value))]
+    if plain := "".join(f"{key} = {_literal(value)}\n" for key, value in given if not _is_table(value)):
+        yield plain
     for key, value in given:
-        if isinstance(value, Part):
-            blocks.append(f"[{key}]\n{_assignments(value)}")
-        elif _is_table(value):
-            blocks += [f"[[{key}]]\n{_assignments(part)}" for part in value]
-    return "\n".join(block for block in blocks if block)
+        if not _is_table(value):
+            continue
+        parts = [value] if isinstance(value, Part) else value
+        rest = [_assignments(part, said.get(key, ())) for part in parts]
+        head = f"[{key}]\n" if isinstance(value, Part) else f"[[{key}]]\n"
+        if any(rest) or key not in said:
+            yield from (head + text for text in rest)
 
 
 def _given(part: Part) -> Iterator[tuple[str, Any]]:
@@ -168,8 +249,8 @@ def _is_table(value: Any) -> bool:
     return isinstance(value, Part) or (isinstance(value, tuple) and any(isinstance(item, Part) for item in value))
 
 
-def _assignments(part: Part) -> str:
-    return "".join(f"{key} = {_literal(value)}\n" for key, value in _given(part))
+def _assignments(part: Part, said: Collection[str]) -> str:
+    return "".join(f"{key} = {_literal(value)}\n" for key, value in _given(part) if key not in said)
 
 
 def _literal(value: Any) -> str:

@@ -2,41 +2,93 @@
 
 import math
 import sys
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, FiniteFloat, model_validator
+from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 
-from beal.vehicle.base import Part, si
+from beal.vehicle.base import PLAIN, TABLE, Part, si
+from beal.vehicle.stations import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    BendingStiffness,
+    FoundationStiffness,
+    LoadPerLength,
+    MassPerLength,
+    Property,
+    StationTable,
+    form,
+    misfit,
+)
 
 LARGEST = sys.float_info.max
-POSITIVE, NOT_NEGATIVE = Field(gt=0), Field(ge=0)
 ShearAxis = Literal["mean", "forward", "aft", "inertial"]
-End = Literal["free", "clamped", "pinned", "sliding"]
+HeldEnd = Literal["free", "clamped", "pinned", "sliding"]
+HELD = {"free": (0.0, 0.0), "clamped": (math.inf, math.inf), "pinned": (math.inf, 0.0), "sliding": (0.0, math.inf)}
+ALONG = ("mass_per_length", "bending_stiffness", "foundation_stiffness")  # what varies along a stage
 
 
 class Stage(Part):
-    """A uniform Euler-Bernoulli beam, one stage of the vehicle or a piece of one.
+    """An Euler-Bernoulli beam, one stage of the vehicle or a piece of one.
+
+    Every property along the stage is a number or a table ``{x = [...], value = [...]}``: x counts from the front of the
+    stage to its end, values are linear in between, and an x given twice is a step.
 
     Parameters
     ----------
     length : float
         In m.
-    mass_per_length : float
+    mass_per_length : float or table
         In kg/m.
-    bending_stiffness : float
+    bending_stiffness : float or table
         EI, in N m^2.
+    internal_damping : float
+        Kelvin-Voigt time constant, in s: the bending moment is EI (y'' + internal_damping * dy''/dt).
+    external_damping : float
+        Transverse force per length and rate, in N s/m^2.
+    foundation_stiffness : float or table
+        Of a Winkler foundation: transverse force per length and deflection, in N/m^2.
     name : str
 
     Examples
     --------
-    >>> Stage(length=0.6, mass_per_length=1.0, bending_stiffness=1.0).length
+    >>> Stage(length=0.6, mass_per_length=1.0, bending_stiffness={"x": [0.0, 0.6], "value": [2.0, 1.0]}).mass
     0.6
     """
 
     name: str = ""
     length: Annotated[FiniteFloat, si("m"), POSITIVE]
-    mass_per_length: Annotated[FiniteFloat, si("kg/m"), POSITIVE]
-    bending_stiffness: Annotated[FiniteFloat, si("N*m^2"), POSITIVE]
+    mass_per_length: MassPerLength
+    bending_stiffness: BendingStiffness
+    internal_damping: Annotated[FiniteFloat, si("s"), NOT_NEGATIVE] = 0.0
+    external_damping: Annotated[FiniteFloat, si("N*s/m^2"), NOT_NEGATIVE] = 0.0
+    foundation_stiffness: FoundationStiffness = 0.0
+
+    @model_validator(mode="after")
+    def _tables_reach_its_end(self) -> "Stage":
+        for name, table in self.tables.items():
+            if wrong := table.misfit(self.length):
+                raise misfit((name, "x"), wrong, table.x[-1])
+        return self
+
+    @cached_property
+    def tables(self) -> dict[str, StationTable]:
+        """The properties that are tables, by name."""
+        given: dict[str, Property] = {name: getattr(self, name) for name in ALONG}
+        return {name: value for name, value in given.items() if isinstance(value, StationTable)}
+
+    @property
+    def mass(self) -> float:
+        """In kg."""
+        return self.mass_moments[0]
+
+    @property
+    def mass_moments(self) -> tuple[float, float, float]:
+        """Integrals of m, m x and m x^2, x from the front of the stage, in kg, kg m and kg m^2."""
+        mass, length = self.mass_per_length, self.length
+        if isinstance(mass, StationTable):
+            return mass.moments
+        return mass * length, mass * length**2 / 2, mass * length**3 / 3
 
 
 class Joint(Part):
@@ -48,6 +100,8 @@ class Joint(Part):
         k_r, in N m/rad.
     shear_stiffness : float
         k_s, in N/m.
+    rotational_damping, shear_damping : float
+        Of dashpots beside the springs, in N m s/rad and N s/m; a rigid joint does not move and its dashpots do nothing.
     shear_axis : {"mean", "forward", "aft", "inertial"}
         Direction along which the shear spring slides: the mean of both faces' slopes, one face's slope, or fixed in
         space. The last is the choice of Irani & Kavianipour (2009), whose joint does not balance moments.
@@ -56,6 +110,8 @@ class Joint(Part):
     name: str = ""
     rotational_stiffness: Annotated[float, si("N*m/rad"), NOT_NEGATIVE] = math.inf
     shear_stiffness: Annotated[float, si("N/m"), NOT_NEGATIVE] = math.inf
+    rotational_damping: Annotated[FiniteFloat, si("N*m*s/rad"), NOT_NEGATIVE] = 0.0
+    shear_damping: Annotated[FiniteFloat, si("N*s/m"), NOT_NEGATIVE] = 0.0
     shear_axis: ShearAxis = "mean"
 
 
@@ -78,30 +134,126 @@ class PointMass(Part):
     rotary_inertia: Annotated[FiniteFloat, si("kg*m^2"), NOT_NEGATIVE] = 0.0
 
 
+class ElasticEnd(Part):
+    """Springs between an end and the ground; an infinite stiffness holds it, zero leaves it free.
+
+    Parameters
+    ----------
+    translation : float
+        Against deflection, in N/m.
+    rotation : float
+        Against slope, in N m/rad.
+    """
+
+    translation: Annotated[float, si("N/m"), NOT_NEGATIVE] = 0.0
+    rotation: Annotated[float, si("N*m/rad"), NOT_NEGATIVE] = 0.0
+
+
+End = Annotated[Annotated[HeldEnd, Tag(PLAIN)] | Annotated[ElasticEnd, Tag(TABLE)], Discriminator(form)]
+
+
 class Support(Part):
-    """How the two ends are held: ``free``, ``clamped``, ``pinned`` or ``sliding`` (slope held, deflection free)."""
+    """How the two ends are held: ``free``, ``clamped``, ``pinned``, ``sliding`` (slope held), or by springs.
+
+    Parameters
+    ----------
+    nose, tail : {"free", "clamped", "pinned", "sliding"} or ElasticEnd
+    """
 
     nose: End = "free"
     tail: End = "free"
 
+    @property
+    def stiffness(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Of nose and tail against deflection and slope, in N/m and N m/rad; infinite where held."""
+        return _stiffness(self.nose), _stiffness(self.tail)
+
+
+def _stiffness(end: HeldEnd | ElasticEnd) -> tuple[float, float]:
+    return (end.translation, end.rotation) if isinstance(end, ElasticEnd) else HELD[end]
+
 
 class Thrust(Part):
-    """The thrust P at the tail and the axial force that it causes.
+    """The thrust P, where it acts, and the axial force that it causes.
 
     Parameters
     ----------
     tangency : float
         eta: 1 for a follower force, 0 for a force fixed in space.
+    scale : float
+        Share of P that acts here; 0 leaves the distributed thrusts alone.
+    station : float, optional
+        Where it acts, in m from the nose; by default at the tail.
+    line : {"moving", "fixed"}
+        ``moving``: the line of action goes through the station and turns with the tangent by ``tangency``. ``fixed``:
+        it stays the axis of the undeformed vehicle, as on a rigid plate under a fixed jet (Reut's column); the moment
+        about the station is then ``tangency`` times that of the whole offset.
     axial_force : {"inertia", "constant"}, optional
         ``inertia``: N(x) = P times the share of the mass forward of x (a vehicle in flight); ``constant``: N = P
-        (the nose takes the reaction). By default the first for a free-free vehicle, the second for a supported one.
+        forward of where it acts (the nose takes the reaction). By default the first for a free-free vehicle, the
+        second for a supported one.
     nominal : float, optional
         The thrust of normal operation, in N, used for margins and responses.
     """
 
     tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
+    scale: Annotated[FiniteFloat, si(""), NOT_NEGATIVE] = 1.0
+    station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE] | None = None
+    line: Literal["moving", "fixed"] = "moving"
     axial_force: Literal["inertia", "constant"] | None = None
     nominal: Annotated[FiniteFloat, si("N"), POSITIVE] | None = None
+
+
+class Damping(Part):
+    """Damping that is known by its ratios rather than by where it comes from; adds to that of stages and joints.
+
+    Parameters
+    ----------
+    ratios : sequence of float
+        Share of critical damping of the elastic modes of the unloaded vehicle, in order of frequency; the last ratio
+        holds for all modes above. Empty: none.
+
+    Examples
+    --------
+    >>> Damping(ratios=[0.01, 0.005]).ratios
+    (0.01, 0.005)
+    """
+
+    ratios: tuple[Annotated[FiniteFloat, si(""), NOT_NEGATIVE], ...] = ()
+
+
+class DistributedThrust(Part):
+    """A tangential load along the vehicle, towards the nose, that grows with the thrust P (Leipholz, Hauger).
+
+    Parameters
+    ----------
+    value : float or table
+        Load per length over P, in 1/m; x counts from the nose to the tail.
+    tangency : float
+        1 for a load that follows the tangents, 0 for one fixed in space.
+    """
+
+    value: LoadPerLength
+    tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
+
+
+class AxialLoad(Part):
+    """A dead load along the axis, the same at every thrust, such as drag at the nose.
+
+    Parameters
+    ----------
+    station : float
+        In m from the nose.
+    force : float
+        Towards the nose, as thrust acts, in N; drag is negative.
+    tangency : float
+        0 for a force fixed in space, 1 for one that turns with the vehicle, as drag does.
+    """
+
+    name: str = ""
+    station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE]
+    force: Annotated[FiniteFloat, si("N")]
+    tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 0.0
 
 
 class Sensor(Part):

@@ -12,7 +12,8 @@ from pydantic import ValidationError
 
 from beal.errors import ModelError
 from beal.vehicle.base import Part, problems
-from beal.vehicle.vehicle import Vehicle
+from beal.vehicle.stations import StationTable
+from beal.vehicle.vehicle import Vehicle, metres
 
 SPLIT = "stage.split"
 _STEP = re.compile(r"(\w+)(?:\[([0-9]{1,9})\])?")
@@ -28,14 +29,14 @@ def paths(vehicle: Vehicle) -> list[str]:
     Returns
     -------
     list of str
-        In the order of the model file, then ``stage.split`` where there are two stages or more. The entries of a
-        tabulated signal have no path.
+        In the order of the model file, then ``stage.split`` where there are two stages or more. The entries of
+        tables have no path.
 
     Examples
     --------
     >>> from beal.vehicle.catalog import beck
-    >>> paths(beck())
-    ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness', 'thrust.tangency']
+    >>> paths(beck())[:3]
+    ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness']
     """
     return [*_paths(vehicle, ""), *([SPLIT] if len(vehicle.stages) > 1 else [])]
 
@@ -84,8 +85,8 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     vehicle : Vehicle
     values : mapping of path to number
         ``stage.split`` moves the first joint and keeps the total length of the first two stages; the stations of
-        masses, sensors and forces stay; lengths given beside it are set first. In SI, text with a unit is accepted as
-        in the model file.
+        masses, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the lengths
+        that they describe. In SI, text with a unit is accepted as in the model file.
 
     Returns
     -------
@@ -117,10 +118,26 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
         stages = tree.setdefault("stages", {})
         stages.setdefault(0, {})["length"] = first
         stages.setdefault(1, {})["length"] = second
+    _stretch(vehicle, tree)
     try:
         return Vehicle.model_validate(_merged(vehicle, tree), context={"units": vehicle.units})
     except ValidationError as error:
         raise ModelError(problems(error, Vehicle)) from None
+
+
+def _stretch(vehicle: Vehicle, tree: dict[str | int, Any]) -> None:
+    """Tables follow the lengths of what they describe."""
+    total = 0.0
+    for index, stage in enumerate(vehicle.stages):
+        branch = tree.get("stages", {}).get(index, {})
+        length = metres(branch, "length") if "length" in branch else stage.length
+        total += length
+        if length > 0 and length != stage.length:
+            branch |= {name: table.stretched(length) for name, table in stage.tables.items()}
+    for index, load in enumerate(vehicle.distributed_thrusts):
+        if isinstance(load.value, StationTable) and load.value.misfit(total) and total > 0:
+            loads = tree.setdefault("distributed_thrusts", {})
+            loads.setdefault(index, {})["value"] = load.value.stretched(total)
 
 
 def _split(vehicle: Vehicle, share: float | str) -> tuple[float, float]:
@@ -148,10 +165,8 @@ def _merged(value: Any, tree: dict[str | int, Any]) -> Any:
     for name, key in _keys(kind).items():
         item = getattr(value, name)
         branch = tree.get(name)
-        if isinstance(item, Part | tuple):
-            item = _merged(item, branch) if branch else item
-        elif name in tree:
-            item = branch
+        if name in tree:
+            item = _merged(item, branch) if isinstance(branch, dict) else branch
         fields[key] = item
     return fields
 

@@ -3,7 +3,8 @@
 import math
 from typing import Any
 
-from beal.vehicle.parts import Joint
+from beal.vehicle.parts import ElasticEnd, Joint
+from beal.vehicle.stations import Property, StationTable
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -37,12 +38,18 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "mass": vehicle.mass,
         "centre_of_mass": vehicle.centre_of_mass,
         "moment_of_inertia": vehicle.moment_of_inertia,
-        "support": {"nose": vehicle.support.nose, "tail": vehicle.support.tail},
+        "support": {"nose": _end(vehicle.support.nose), "tail": _end(vehicle.support.tail)},
         "axial_force": vehicle.axial_force,
         "tangency": vehicle.thrust.tangency,
+        "thrust_station": vehicle.length if vehicle.thrust.station is None else vehicle.thrust.station,
+        "thrust_share": vehicle.thrust.scale,
         "nominal_thrust": vehicle.thrust.nominal,
+        "damping_ratios": vehicle.damping.ratios,
         "stages": _stages(vehicle),
         "joints": _joints(vehicle),
+        "gravity": vehicle.gravity,
+        "distributed_thrusts": [part.model_dump() for part in vehicle.distributed_thrusts],
+        "axial_loads": [part.model_dump() for part in vehicle.axial_loads],
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
         "sensors": [part.model_dump() for part in vehicle.sensors],
         "nondimensional": _groups(vehicle),
@@ -56,17 +63,37 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
             "name": stage.name,
             "from": start,
             "to": end,
-            "mass": stage.length * stage.mass_per_length,
-            "mass_per_length": stage.mass_per_length,
-            "bending_stiffness": stage.bending_stiffness,
+            "mass": stage.mass,
+            "mass_per_length": _property(stage.mass_per_length),
+            "bending_stiffness": _property(stage.bending_stiffness),
+            "internal_damping": stage.internal_damping,
+            "external_damping": stage.external_damping,
+            "foundation_stiffness": _property(stage.foundation_stiffness),
         }
         for stage, start, end in ends
     ]
 
 
+def _property(given: Property) -> float | dict[str, Any]:
+    return given.model_dump() if isinstance(given, StationTable) else given
+
+
+def _end(end: str | ElasticEnd) -> str | dict[str, float | str]:
+    if isinstance(end, str):
+        return end
+    return {name: "rigid" if math.isinf(value) else value for name, value in end.model_dump().items()}
+
+
 def _joints(vehicle: Vehicle) -> list[dict[str, Any]]:
     return [
-        {"name": joint.name, "station": station, "shear_axis": joint.shear_axis, **_springs(joint, 1.0, 1.0)}
+        {
+            "name": joint.name,
+            "station": station,
+            "shear_axis": joint.shear_axis,
+            **_springs(joint, 1.0, 1.0),
+            "rotational_damping": joint.rotational_damping,
+            "shear_damping": joint.shear_damping,
+        }
         for joint, station in zip(vehicle.joints, vehicle.boundaries[1:], strict=False)
     ]
 

@@ -5,21 +5,35 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, FiniteFloat, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beal.units import to_si
-from beal.vehicle.base import Part
-from beal.vehicle.parts import Force, Joint, PointMass, Sensor, Stage, Support, Thrust, known
+from beal.vehicle.base import Part, si
+from beal.vehicle.parts import (
+    AxialLoad,
+    Damping,
+    DistributedThrust,
+    Force,
+    Joint,
+    PointMass,
+    Sensor,
+    Stage,
+    Support,
+    Thrust,
+    known,
+)
+from beal.vehicle.stations import StationTable, mean
 
 
 @dataclass(frozen=True)
 class Scales:
     """Reference length [m], mass per length [kg/m] and bending stiffness [N m^2] of the non-dimensional form.
 
-    Irani & Kavianipour (2009), Eq. (6): the whole length, and the first stage's properties.
+    Irani & Kavianipour (2009), Eq. (6): the whole length, and the first stage's properties, their mean
+    where they vary.
     """
 
     length: float
@@ -54,6 +68,12 @@ class Vehicle(Part):
     point_masses : sequence of PointMass
     support : Support
     thrust : Thrust
+    damping : Damping
+    distributed_thrusts : sequence of DistributedThrust
+    axial_loads : sequence of AxialLoad
+    gravity : float
+        Along the axis from nose to tail, in m/s^2. Only a vehicle whose ends take the reaction bears its weight; in
+        flight gravity accelerates all parts alike.
     sensors : sequence of Sensor
     forces : sequence of Force
     title : str
@@ -78,6 +98,10 @@ class Vehicle(Part):
     point_masses: tuple[PointMass, ...] = Field(alias="point_mass", default=())
     support: Support = Support()
     thrust: Thrust = Thrust()
+    damping: Damping = Damping()
+    distributed_thrusts: tuple[DistributedThrust, ...] = Field(alias="distributed_thrust", default=())
+    axial_loads: tuple[AxialLoad, ...] = Field(alias="axial_load", default=())
+    gravity: Annotated[FiniteFloat, si("m/s^2")] = 0.0
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
 
@@ -94,6 +118,8 @@ class Vehicle(Part):
         else:
             parts = vehicle.__dict__
         errors += [_detail(*problem) for problem in _misfits(parts)]
+        if not errors:
+            errors = [_detail(*problem) for problem in vehicle._unsuited_loads()]
         if not errors and not vehicle._in_range():
             message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
             errors.append(_detail(("stage",), message, vehicle.length))
@@ -114,37 +140,71 @@ class Vehicle(Part):
     @property
     def mass(self) -> float:
         """Total mass, in kg."""
-        return sum(s.length * s.mass_per_length for s in self.stages) + sum(p.mass for p in self.point_masses)
+        return sum(stage.mass for stage in self.stages) + sum(p.mass for p in self.point_masses)
 
     @property
     def centre_of_mass(self) -> float:
         """Station of the centre of mass, in m."""
         stages = zip(self.stages, self.boundaries, strict=False)
-        moment = sum(s.length * s.mass_per_length * (x + s.length / 2) for s, x in stages)
+        moment = sum(x * stage.mass + stage.mass_moments[1] for stage, x in stages)
         return (moment + sum(p.mass * p.station for p in self.point_masses)) / self.mass
 
     @property
     def moment_of_inertia(self) -> float:
         """Pitch inertia of the rigid vehicle about its centre of mass, in kg m^2."""
-        centre, stages = self.centre_of_mass, zip(self.stages, self.boundaries, strict=False)
-        return sum(
-            s.length * s.mass_per_length * (s.length**2 / 12 + (x + s.length / 2 - centre) ** 2) for s, x in stages
-        ) + sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
+        centre = self.centre_of_mass
+        inertia = sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
+        for stage, x in zip(self.stages, self.boundaries, strict=False):
+            mass, first, second = stage.mass_moments
+            own = first / mass  # centre of mass, from the stage's front
+            inertia += second - mass * own**2 + mass * (x + own - centre) ** 2
+        return inertia
 
     @property
     def free_free(self) -> bool:
         """Whether neither end is held."""
-        return self.support.nose == self.support.tail == "free"
+        return not any(stiffness for end in self.support.stiffness for stiffness in end)
+
+    @property
+    def founded(self) -> bool:
+        """Whether an elastic foundation holds any stage."""
+        return any(mean(stage.foundation_stiffness) for stage in self.stages)
 
     @property
     def axial_force(self) -> Literal["inertia", "constant"]:
         """The axial force law in force, the default resolved."""
         return self.thrust.axial_force or ("inertia" if self.free_free else "constant")
 
+    @cached_property
+    def damped(self) -> bool:
+        """Whether anything in it dissipates energy; the dashpot of a rigid joint does not."""
+        springs = [(j.rotational_stiffness, j.rotational_damping) for j in self.joints]
+        springs += [(j.shear_stiffness, j.shear_damping) for j in self.joints]
+        dashpots = (damping for stiffness, damping in springs if math.isfinite(stiffness))
+        losses = (c for s in self.stages for c in (s.internal_damping, s.external_damping))
+        return any(dashpots) or any(losses) or any(self.damping.ratios)
+
+    @property
+    def undamped(self) -> "Vehicle":
+        """The vehicle without its damping."""
+        if not self.damped:
+            return self
+        stages = [s.model_copy(update={"internal_damping": 0.0, "external_damping": 0.0}) for s in self.stages]
+        joints = [j.model_copy(update={"rotational_damping": 0.0, "shear_damping": 0.0}) for j in self.joints]
+        return self.model_copy(update={"stages": tuple(stages), "joints": tuple(joints), "damping": Damping()})
+
     @property
     def scales(self) -> Scales:
         """Reference quantities of the non-dimensional form."""
-        return Scales(self.length, self.stages[0].mass_per_length, self.stages[0].bending_stiffness)
+        first = self.stages[0]
+        return Scales(self.length, mean(first.mass_per_length), mean(first.bending_stiffness))
+
+    def _unsuited_loads(self) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+        for index, load in enumerate(self.distributed_thrusts):
+            if isinstance(load.value, StationTable) and (wrong := load.value.misfit(self.length)):
+                yield ("distributed_thrust", index, "value", "x"), wrong, load.value.x[-1]
+        if not self.thrust.scale and not self.distributed_thrusts:
+            yield ("thrust", "scale"), "must be positive where there is no distributed thrust, found 0", 0.0
 
     def _in_range(self) -> bool:
         try:
@@ -171,14 +231,19 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
             f"must be one fewer than the stages, {len(stages) - 1} (an empty [[joint]] is rigid), found {len(joints)}"
         )
         yield ("joint",), message, len(joints)
-    lengths = [_metres(stage, "length") for stage in stages]
+    lengths = [metres(stage, "length") for stage in stages]
     total = sum(lengths) if lengths and all(x > 0 for x in lengths) else math.inf
-    for alias, name in (("point_mass", "point_masses"), ("sensor", "sensors"), ("force", "forces")):
+    placed = {"point_mass": "point_masses", "axial_load": "axial_loads", "sensor": "sensors", "force": "forces"}
+    for alias, name in placed.items():
         for index, part in enumerate(_parts(data, alias, name)):
-            station = _metres(part, "station")
+            station = metres(part, "station")
             if station > total * (1 + 1e-12):
                 message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
                 yield (alias, index, "station"), message, station
+    station = metres(_field(data, "thrust"), "station")
+    if station > total * (1 + 1e-12):
+        message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
+        yield ("thrust", "station"), message, station
     names = [_field(sensor, "name") for sensor in _parts(data, "sensor", "sensors")]
     for index, name in enumerate(names):
         if isinstance(name, str) and name in names[:index]:
@@ -194,7 +259,7 @@ def _field(part: Any, name: str) -> Any:
     return part.get(name) if isinstance(part, dict) else getattr(part, name, None)
 
 
-def _metres(part: Any, name: str) -> float:
+def metres(part: Any, name: str) -> float:
     """A length of raw input; nan, which fails every comparison, where it is not one."""
     value = _field(part, name)
     try:

@@ -1,0 +1,130 @@
+"""Results as labelled arrays: mode shapes along the vehicle, frequencies over thrust, motion at the sensors."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from beal.discretisation.operators import Operators
+from beal.motion.histories import Response
+from beal.stability.curve import ThrustCurve
+from beal.stability.spectrum import Spectrum
+
+if TYPE_CHECKING:
+    import xarray  # takes a second
+
+UNITS = {
+    "station": "m",
+    "angular_frequency": "rad/s",
+    "growth_rate": "1/s",
+    "slope_real": "1/m",
+    "slope_imag": "1/m",
+    "thrust": "N",
+    "time": "s",
+    "displacement": "m",
+    "rate": "m/s",
+    "slope": "rad",
+}
+
+
+def mode_shapes(spectrum: Spectrum, operators: Operators, points: int = 21) -> "xarray.Dataset":
+    """Sample the mode shapes of a spectrum along the vehicle.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+    operators : Operators
+        Those that the spectrum was computed from.
+    points : int
+        Stations in each stage, both ends counted: at a joint the forward face is listed, then the aft one.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``displacement`` (largest value 1) and ``slope``, real and imaginary part, over ``mode`` and ``point``.
+
+    Examples
+    --------
+    >>> from beal.discretisation.build import discretise
+    >>> from beal.stability.spectrum import spectrum
+    >>> from beal.vehicle import catalog
+    >>> column = discretise(catalog.beck(), order=10)
+    >>> float(mode_shapes(spectrum(column, count=1), column).displacement_real[0, -1])
+    1.0
+    """
+    ends = operators.vehicle.boundaries
+    stages = [np.linspace(front, back, points) for front, back in zip(ends, ends[1:], strict=False)]
+    values = []
+    for derivative in (0, 1):
+        rows = [
+            np.vstack([operators.shape(x[:-1], derivative, "aft"), operators.shape(x[-1:], derivative, "forward")])
+            for x in stages
+        ]
+        values.append((np.vstack(rows) @ spectrum.shapes).T)
+    displacement, slope = values
+    places = abs(displacement).argmax(axis=1)
+    largest = displacement[np.arange(len(places)), places, None]
+    shapes = {"displacement": displacement / largest, "slope": slope / largest}
+    dims = ("mode", "point")
+    return _labelled(
+        {
+            "angular_frequency": ("mode", spectrum.angular_frequency),
+            "growth_rate": ("mode", spectrum.growth_rate + 0.0),
+            **{f"{name}_real": (dims, shape.real) for name, shape in shapes.items()},
+            **{f"{name}_imag": (dims, shape.imag) for name, shape in shapes.items()},
+        },
+        {
+            "mode": np.arange(1, len(places) + 1, dtype=np.int32),
+            "station": ("point", np.concatenate(stages)),
+            "stage": ("point", np.repeat(np.arange(len(stages), dtype=np.int32), points)),
+        },
+        {"title": operators.vehicle.title, "units": operators.vehicle.units, "thrust": spectrum.thrust},
+    )
+
+
+def thrust_curve(curve: ThrustCurve) -> "xarray.Dataset":
+    """Frequency and growth rate of each mode over the thrust.
+
+    Parameters
+    ----------
+    curve : ThrustCurve
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``thrust`` and ``mode``.
+    """
+    dims = ("thrust", "mode")
+    return _labelled(
+        {name: (dims, getattr(curve, name)) for name in ("angular_frequency", "growth_rate")},
+        {"thrust": curve.thrust, "mode": np.arange(1, curve.growth_rate.shape[1] + 1, dtype=np.int32)},
+        {"formulation": curve.formulation},
+    )
+
+
+def response(found: Response) -> "xarray.Dataset":
+    """Motion at the sensors over time.
+
+    Parameters
+    ----------
+    found : Response
+
+    Returns
+    -------
+    xarray.Dataset
+        ``displacement``, ``rate`` and ``slope`` over ``sensor`` and ``time``.
+    """
+    return _labelled(
+        {name: (("sensor", "time"), getattr(found, name)) for name in ("displacement", "rate", "slope")},
+        {"sensor": list(found.sensors), "time": found.time},
+        {"thrust": found.thrust, "method": found.method, "step": found.step},
+    )
+
+
+def _labelled(values: dict[str, Any], coordinates: dict[str, Any], attributes: dict[str, Any]) -> "xarray.Dataset":
+    import xarray
+
+    dataset = xarray.Dataset(values, coordinates, attributes)
+    if attributes.get("units") != "nondimensional":
+        for name in set(UNITS) & set(dataset.variables):
+            dataset[name].attrs["units"] = UNITS[name]
+    return dataset
