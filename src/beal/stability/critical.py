@@ -12,16 +12,17 @@ from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
-from beal.stability.damped import closest_mode, damped_events, growing_root, highest_frequency, unstable_roots
+from beal.stability.damped import damped_events, fed_modes, highest_frequency, unstable_roots
+from beal.stability.dead_loads import check_dead_loads
 from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined, settled
-from beal.stability.ridge import REAL, Instability, Search, meeting_pair
+from beal.stability.ridge import Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
-from beal.stability.zero_roots import FIRST, ZERO, mechanism, rigid_body_root
+from beal.stability.zero_roots import FIRST, mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 STEPS = 36  # coarse intervals up to the default limit
@@ -122,7 +123,7 @@ def critical_thrust(
     Raises
     ------
     ModelError
-        If an option does not apply.
+        If an option does not apply, or the dead loads alone make the vehicle unstable.
     ConvergenceError
         If the tolerance is not reached.
 
@@ -235,11 +236,8 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     drift: str
     if full.C is None:
         drift = rigid_body_root(small, task.limit)
-        if full.dead is not None:
-            _check_dead_loads(small, drift == "tumbling")
+        check_dead_loads(small, task.limit)
         found = _first(task, small, method)
-    elif full.dead is not None:
-        raise ModelError("damping: is not supported beside dead loads (axial_load, gravity); leave one of the two out")
     else:
         drift, found = _first_damped(task, small, _without_damping(operators, task.watched))
     watched = min(task.watched, len(small.M) - small.rigid)
@@ -273,13 +271,6 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     return result
 
 
-def _check_dead_loads(small: Pencil, tumbling: bool) -> None:
-    """Refuse a vehicle that its dead loads alone make unstable."""
-    low = small.roots(0.0)[int(tumbling) :]
-    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low) + ZERO * small.shift):
-        raise ModelError("axial_load: the dead loads alone, axial loads and gravity, make the vehicle unstable")
-
-
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
     if kind := mechanism(small, task.limit):
         modes = (1, 1) if kind == "divergence" else meeting_pair(small, 0.0, 0.0)
@@ -294,16 +285,19 @@ def _first_damped(task: _Task, small: Pencil, undamped: Pencil) -> tuple[str, In
     """Where the rigid-body motion goes under the first thrust, and the first instability of a damped pencil."""
     if mechanism(undamped, task.limit):
         return "", _first(task, undamped, "fast")
-    found = damped_events(small, undamped, task.limit, task.watched)
     top = highest_frequency(undamped, task.watched)
+    check_dead_loads(undamped, task.limit, small, top)
+    found = damped_events(small, undamped, task.limit, task.watched)
     first = found[0].thrust if found else task.limit
     drift: str = rigid_body_root(undamped, task.limit)
-    own = unstable_roots(small, min(FIRST * task.limit, first / 2), top) if small.rigid else 0
-    if own:
-        return "tumbling", _first_of(found, own)
-    if W := growing_root(small, first / 2, top):  # from the first thrust on
-        return drift, Instability(_start(0.0, W), "flutter", (closest_mode(undamped, first / 2, W, task.limit),) * 2)
-    return drift, _first_of(found, 0)
+    own = 0
+    if small.rigid:
+        early = min(FIRST * task.limit, first / 2)
+        own = unstable_roots(small, early, top) - 2 * len(fed_modes(small, undamped, early, task.limit, top))
+    if fed := fed_modes(small, undamped, first / 2, task.limit, top):  # from the first thrust on
+        mode, W = fed[0]
+        return "tumbling" if own else drift, Instability(_start(0.0, W), "flutter", (mode, mode))
+    return "tumbling" if own else drift, _first_of(found, own)
 
 
 def _first_of(found: list[Event], own: int) -> Instability | None:

@@ -13,6 +13,8 @@ are the eigenvalues of one matrix. For a damping e C with e -> 0, X = e X' gives
 the first two terms of the second line: without these two they are the limit itself.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -178,11 +180,14 @@ def unstable_roots(pencil: Pencil, thrust: float, top: float) -> int:
     return len(_growing(pencil, thrust, top))
 
 
-def growing_root(pencil: Pencil, thrust: float, top: float) -> float:
-    """W = omega^2 of the complex root below a frequency that grows fastest; 0 where none does."""
+def fed_modes(pencil: Pencil, undamped: Pencil, thrust: float, limit: float, top: float) -> list[tuple[int, float]]:
+    """Number and W = omega^2 of the elastic modes below a frequency that grow as they swing, the fastest first."""
     s = _growing(pencil, thrust, top)
-    s = s[s.imag != 0]
-    return float(s.imag[s.real.argmax()] ** 2) if len(s) else 0.0
+    s = s[s.imag > 0]
+    drifts = pencil.rigid > undamped.rigid
+    W = s[np.argsort(-s.real)].imag ** 2
+    modes = [(closest_mode(undamped, thrust, float(each), limit, drifts), float(each)) for each in W]
+    return [(mode, each) for mode, each in modes if mode]
 
 
 def _growing(pencil: Pencil, thrust: float, top: float, least: float = GROWING) -> ComplexArray:
@@ -217,9 +222,11 @@ def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float, drifts
 
 def with_rates(pencil: Pencil) -> Pencil:
     """The static problem, with the rates of motions that meet no stiffness in place of the motions."""
+    loads = [load / np.abs(load).max() for load in (pencil.K1, pencil.dead) if load is not None and load.any()]
     free = np.zeros((len(pencil.M), pencil.rigid))
     if pencil.rigid:
-        _, size, motions = np.linalg.svd(pencil.K1[:, : pencil.rigid])
-        free[: pencil.rigid] = motions.T * (size < UNCOUPLED * np.abs(pencil.K1).max())
+        _, size, motions = np.linalg.svd(np.vstack(loads)[:, : pencil.rigid])
+        free[: pencil.rigid] = motions.T * (size < UNCOUPLED)
     K0 = pencil.K0 + damping_of(pencil) @ free @ free.T
-    return Pencil(K0, pencil.K1 - pencil.K1 @ free @ free.T, pencil.M, pencil.rigid, pencil.shift)
+    dead = None if pencil.dead is None else pencil.dead - pencil.dead @ free @ free.T
+    return replace(pencil, K0=K0, K1=pencil.K1 - pencil.K1 @ free @ free.T, C=None, dead=dead)

@@ -51,12 +51,12 @@ def vanishing_damping_limit(
     -------
     CriticalThrust
         With the undamped vehicle's kind, modes and thrust where the limit is the same; else flutter of one mode, named
-        twice. The limit is 0 where a damping feeds a mode under any thrust.
+        twice. The limit is 0 where a damping feeds a mode under any thrust, or under the dead loads alone.
 
     Raises
     ------
     ModelError
-        If the vehicle has no damping, or an option does not apply.
+        If the vehicle has no damping, its dead loads alone make it unstable without, or an option does not apply.
     ConvergenceError
         If the tolerance is not reached.
 

@@ -1,0 +1,12 @@
+"""A mode that damping feeds from the first thrust on was once taken for part of the tumbling beside it."""
+
+from beal.stability.critical import critical_thrust
+from beal.vehicle import Damping, Stage, Thrust, Vehicle
+
+
+def test_elastic_modes_bear_nothing_where_damping_feeds_one_of_a_tumbling_vehicle():
+    stage = Stage(length=1.0, mass_per_length=1.0, bending_stiffness=1.0)
+    vehicle = Vehicle(stages=[stage], thrust=Thrust(tangency=0.9), damping=Damping(ratios=[0.0, 0.01]))
+    found = critical_thrust(vehicle)
+    assert (found.critical_thrust, found.rigid_body, found.modes) == (0.0, "tumbling", (0, 0))
+    assert (found.elastic.critical_thrust, found.elastic.kind, found.elastic.modes) == (0.0, "flutter", (1, 1))
