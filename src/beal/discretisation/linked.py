@@ -173,7 +173,7 @@ class LinkedOperators:
     vehicle : Vehicle
     M, K0, K1 : sparse arrays, shape (n, n)
     B : sparse array, shape (constraints, n)
-    motions : ndarray, shape (n, rigid)
+    motions : ndarray, shape (n, motions)
         The rigid-body motions that the supports leave, M-orthogonal.
     basis : LinkedBasis
     dead : sparse array, shape (n, n), optional
@@ -198,6 +198,11 @@ class LinkedOperators:
     def shift(self) -> float:
         """The square of the vehicle's reference frequency, in rad^2/s^2."""
         return self.vehicle.scales.angular_frequency**2
+
+    @property
+    def rigid(self) -> int:
+        """Number of the motions that strain nothing, not even a foundation."""
+        return 0 if self.vehicle.founded else self.motions.shape[1]
 
     @cached_property
     def static(self) -> Rows:
@@ -250,7 +255,7 @@ def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
     basis = LinkedBasis(vehicle, order)
     M, K0, K1, dead = energies(vehicle, basis, sample(vehicle, basis))
     B = basis.constraints(vehicle)
-    motions = basis.rigid_body()[:, : 0 if vehicle.founded else 2]
+    motions = basis.rigid_body()
     _, singular, vt = np.linalg.svd(B[2 * len(basis.segments) - 2 :] @ motions, full_matrices=True)
     motions = motions @ vt[int(np.sum(singular > 1e-12)) :].T
     motions = normalised(vehicle, motions.T @ (M @ motions), motions)

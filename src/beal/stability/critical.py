@@ -134,6 +134,10 @@ def critical_thrust(
     dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
     with many soft joints the lowest 32 modes are looked at. Damped vehicles go by dense matrices whatever their size.
 
+    A foundation in proportion to the mass lends the translation and the rotation of a free vehicle one frequency.
+    Rotation under a follower thrust then drives translation in resonance, in proportion to time, as it lets a vehicle
+    without a foundation drift: neither counts as an instability. The least other foundation may flutter early.
+
     Examples
     --------
     >>> from beal.vehicle import catalog

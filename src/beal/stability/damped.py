@@ -216,6 +216,8 @@ def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float, drifts
         roots, rigid = np.delete(roots, np.abs(roots).argmin()), 0
     if drifts and not rigid:
         roots, rigid = np.append(0.0, roots), 1
+    if undamped.held:
+        roots = np.sort_complex(np.append(roots, undamped.held))
     distance = np.abs(roots - W)
     return int(np.argmax(distance <= distance.min() * (1 + 1e-6))) + 1 - rigid
 

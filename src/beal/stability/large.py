@@ -60,7 +60,7 @@ class Reduction:
         self._order = _first_order(vehicle)
         self.system = linked(self._vehicle, self._order)
         motions = self.system.motions
-        self._rigid = motions.shape[1]
+        self._motions, self._rigid = motions.shape[1], self.system.rigid
         self._left_out = self._rigid if converged else 0
         self._vectors = _extended(self.system, motions[:, :0], motions)
         self._add_modes(modes)
@@ -142,7 +142,7 @@ class Reduction:
 
     def _add_modes(self, least: int) -> None:
         """The lowest modes, and what thrust changes in the lowest of them."""
-        system, rigid = self.system, self._rigid
+        system = self.system
         loose = sum((j.rotational_stiffness == 0) + (j.shear_stiffness == 0) for j in self._vehicle.joints)
         modes = self._lowest_modes(BLOCK + loose, least, max(least, MOST_WATCHED + loose))
         low = np.hstack((system.motions, modes[:, : CORRECTED + loose]))
@@ -151,7 +151,7 @@ class Reduction:
             for side in () if load is None else (load, load.T):
                 first = system.deflected(side @ low)
                 groups += [first, system.deflected(side @ first[:, :TWICE_CORRECTED])]
-        self._vectors = self._vectors[:, :rigid]
+        self._vectors = self._vectors[:, : self._motions]
         for group in groups:
             self._vectors = _extended(system, self._vectors, group)
 

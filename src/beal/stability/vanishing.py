@@ -12,12 +12,12 @@ import numpy as np
 import scipy.linalg
 
 from beal.discretisation.build import Formulation, discretise
-from beal.errors import ModelError
+from beal.errors import ConvergenceError, ModelError
 from beal.stability.critical import COMPLETE_SPARE, CriticalThrust, critical_thrust
 from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
-from beal.stability.pencil import Array, Pencil, pencil, reduced
+from beal.stability.pencil import UNCOUPLED, Array, Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined
 from beal.stability.ridge import Instability, Kind
 from beal.stability.threads import one_thread
@@ -85,9 +85,11 @@ def vanishing_damping_limit(
     with one_thread():
         limit = elastic.critical_thrust or elastic.searched_to
         operators = discretise(vehicle, formulation, order=FIRST_ORDER["legendre"])
-        plain = reduced(pencil(replace(operators, C=None)), elastic.watched_modes + COMPLETE_SPARE)
-        small = reduced(pencil(operators), elastic.watched_modes + COMPLETE_SPARE)
-        found = _first_fed(small, limit, elastic.watched_modes)
+        full = pencil(operators)
+        plain = reduced(replace(full, C=None), elastic.watched_modes + COMPLETE_SPARE)
+        small = reduced(full, elastic.watched_modes + COMPLETE_SPARE)
+        parted = len(plain.held) == 2 and not small.held
+        found = _parted(full, plain.held[0]) if parted else _first_fed(small, limit, elastic.watched_modes)
         if found is None:
             return undamped
         thrust, W = found
@@ -129,6 +131,20 @@ def _first_fed(small: Pencil, limit: float, watched: int) -> tuple[float, float]
         if drained[worst] < -GROWING * np.sqrt(W[worst]):
             return found[start - 1][:2] if start else (0.0, float(W[worst]))
     return None
+
+
+def _parted(full: Pencil, W: float) -> tuple[float, float]:
+    """Thrust and W at which a vanishing damping that couples translation and rotation on a foundation parts them: 0.
+
+    As they have one eigenvector, the roots move by the square root of i times the damping, which feeds one of them.
+    """
+    C = damping_of(full)
+    if abs(C[0, 1]) <= UNCOUPLED * np.abs(C).max():
+        raise ConvergenceError(
+            "damping: its vanishing limit is not known where it couples translation and rotation, of one frequency on "
+            "this foundation, through bending alone"
+        )
+    return 0.0, W
 
 
 def _drained(small: Pencil, thrust: float, watched: int) -> tuple[Array, Array]:
