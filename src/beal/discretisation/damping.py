@@ -3,9 +3,9 @@
 import numpy as np
 import scipy.linalg
 
-from beal.discretisation.basis import Array, Combined
+from beal.discretisation.basis import Array, Basis, Combined, Rows
 from beal.discretisation.operators import Operators
-from beal.discretisation.samples import losses, products
+from beal.discretisation.samples import Integral, losses, products
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -38,17 +38,26 @@ def damping_matrix(operators: Operators) -> Array:
     vehicle, basis, rigid = operators.vehicle, operators.basis, operators.rigid
     if not isinstance(basis, Combined):
         raise TypeError(f"the basis of operators with supports imposed is Combined, found {type(basis).__name__}")
-    inside, outside = (loss.combined(basis.transformation) for loss in losses(vehicle, basis.basis))
-    damping, chain = np.asarray(inside.matrix()), basis.segments
+    inside, outside = dissipation(
+        vehicle, basis, *(loss.combined(basis.transformation) for loss in losses(vehicle, basis.basis))
+    )
+    damping = np.asarray(inside)
+    damping[:rigid] = damping[:, :rigid] = 0.0  # rounding: rigid-body motions strain nothing
+    damping = damping + outside
+    damping[rigid:, rigid:] += _modal(vehicle, operators.M[rigid:, rigid:], operators.K0[rigid:, rigid:])
+    return np.asarray((damping + damping.T) / 2)
+
+
+def dissipation(vehicle: Vehicle, basis: Basis, inside: Integral, outside: Integral) -> tuple[Rows, Rows]:
+    """What strains and joints dissipate, and what the surroundings do, given the stages' `losses` in a basis."""
+    damping, chain = inside.matrix(), basis.segments
     fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
     for derivative, name in ((0, "shear_damping"), (1, "rotational_damping")):
         dashpots = np.array([getattr(joint, name) for joint in vehicle.joints])
         there = np.flatnonzero(dashpots)
-        damping = damping + products(basis.jumps([fronts[j] for j in there], derivative), dashpots[there])
-    damping[:rigid] = damping[:, :rigid] = 0.0  # rounding: rigid-body motions strain nothing
-    damping = damping + outside.matrix()
-    damping[rigid:, rigid:] += _modal(vehicle, operators.M[rigid:, rigid:], operators.K0[rigid:, rigid:])
-    return np.asarray((damping + damping.T) / 2)
+        if len(there):
+            damping = damping + products(basis.jumps([fronts[j] for j in there], derivative), dashpots[there])
+    return damping, outside.matrix()
 
 
 def _modal(vehicle: Vehicle, M: Array, K0: Array) -> Array:

@@ -20,9 +20,10 @@ from beal.discretisation.assembly import energies, normalised
 from beal.discretisation.basis import Array, Basis, Combined, Rows, segments
 from beal.discretisation.chain import ground_springs, held, jump_scales
 from beal.discretisation.cuts import ALL
+from beal.discretisation.damping import dissipation
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import gauss, integrals
-from beal.discretisation.samples import sample
+from beal.discretisation.samples import losses, sample
 from beal.discretisation.varying import moment_shapes, pieces
 from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
@@ -178,6 +179,8 @@ class LinkedOperators:
     basis : LinkedBasis
     dead : sparse array, shape (n, n), optional
         Stiffness of the loads that do not grow with the thrust.
+    inside, outside : sparse array, shape (n, n), optional
+        Damping by strains and joints, and by the surroundings, of a damped vehicle.
     """
 
     vehicle: Vehicle
@@ -188,6 +191,13 @@ class LinkedOperators:
     motions: Array
     basis: LinkedBasis
     dead: Rows | None = None
+    inside: Rows | None = None
+    outside: Rows | None = None
+
+    @cached_property
+    def C(self) -> Rows:
+        """Damping, zero where there is none, shape (n, n)."""
+        return csr_array(self.M.shape) if self.inside is None else (self.inside + self.outside).tocsr()
 
     def stiffness(self, thrust: float) -> Rows:
         """K0 + P K1, and that of dead loads."""
@@ -228,8 +238,14 @@ class LinkedOperators:
         """The dense operators in the span of admissible vectors, the first of which are rigid-body motions."""
         M, K0, K1 = (np.asarray(vectors.T @ (matrix @ vectors)) for matrix in (self.M, self.K0, self.K1))
         K0[:rigid] = K0[:, :rigid] = 0.0
-        dead = None if self.dead is None else np.asarray(vectors.T @ (self.dead @ vectors))
-        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), dead=dead)
+        dead, inside, outside = (
+            None if matrix is None else np.asarray(vectors.T @ (matrix @ vectors))
+            for matrix in (self.dead, self.inside, self.outside)
+        )
+        if inside is not None:
+            inside[:rigid] = inside[:, :rigid] = 0.0
+        C = None if inside is None else inside + outside
+        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), C, dead)
 
 
 def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
@@ -259,4 +275,5 @@ def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
     _, singular, vt = np.linalg.svd(B[2 * len(basis.segments) - 2 :] @ motions, full_matrices=True)
     motions = motions @ vt[int(np.sum(singular > 1e-12)) :].T
     motions = normalised(vehicle, motions.T @ (M @ motions), motions)
-    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis, dead)
+    lost = dissipation(vehicle, basis, *losses(vehicle, basis)) if vehicle.damped else (None, None)
+    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis, dead, *lost)

@@ -132,7 +132,8 @@ def critical_thrust(
     The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
     higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported. Vehicles of a
     dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
-    with many soft joints the lowest 32 modes are looked at. Damped vehicles go by dense matrices whatever their size.
+    with many soft joints the lowest 32 modes are looked at, of damped ones at most 14. Damping ratios couple everything
+    with everything: vehicles that have them go by dense matrices whatever their size.
 
     A foundation in proportion to the mass lends the translation and the rotation of a free vehicle one frequency.
     Rotation under a follower thrust then drives translation in resonance, in proportion to time, as it lets a vehicle
@@ -156,9 +157,9 @@ def critical_thrust(
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
         tolerance = tolerance or default_tolerance(vehicle, basis)
-        if basis == "legendre" and is_large(vehicle) and not vehicle.damped:
+        if basis == "legendre" and is_large(vehicle):
             large = Reduction(vehicle, formulation)
-            task = replace(task, watched=large.watched)
+            task = replace(task, watched=_watched(large))
             return _solve(task, large.operators, method, lambda found: refined(found, large.points(found), tolerance))
         operators = discretise(vehicle, formulation, basis, FIRST_ORDER[basis])
         points = partial(ladder, vehicle, formulation, basis)
@@ -191,14 +192,14 @@ def critical_events(
         large = None
         operators = vehicle
         if isinstance(operators, Vehicle):
-            if formulation not in RITZ and is_large(operators) and not operators.damped:
+            if formulation not in RITZ and is_large(operators):
                 large = Reduction(operators, formulation)
                 operators = large.operators
             else:
                 operators = discretise(operators, formulation, order=modes if formulation in RITZ else 12)
         task = _task(operators.vehicle, max_thrust, formulation)
         full = pencil(operators)
-        watched = large.watched if large else task.watched
+        watched = _watched(large) if large else task.watched
         small = reduced(full, watched + COMPLETE_SPARE)
         if full.C is None:
             found = events(small, task.limit, watched)
@@ -226,6 +227,10 @@ def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation) 
     if vehicle.damped:
         watched = min(watched, MOST_DAMPED)
     return _Task(limit, math.ceil(STEPS * limit / natural) + 1, watched, formulation)
+
+
+def _watched(large: Reduction) -> int:
+    return min(large.watched, MOST_DAMPED) if large.system.vehicle.damped else large.watched
 
 
 Refine = Callable[[Instability], tuple[CriticalPoint, float]]

@@ -37,7 +37,7 @@ FIRST_SHARES = np.array([1e-5, 1e-4, 1e-3, 1e-2])  # of the limit
 SAMPLES = 24  # thrusts at which the unstable roots are counted to see that no crossing is missing
 BISECTIONS = 40
 GROWING = 1e-9  # Re s, beside |s|, from which a root counts as growing
-CLOSEST = 3  # roots beside the axis that are tried at a thrust
+CLOSEST, BESIDE_AXIS = 3, 0.1  # roots that are tried at an approximate thrust: so many, |Re s| up to this share of |s|
 
 
 def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) -> list[Event]:
@@ -67,7 +67,7 @@ def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) 
     for thrust in zero_roots(static, limit):
         found += _divergence(static, thrust)
     for thrust in _missed(pencil, [thrust for thrust, _, _ in found], limit, top):
-        resolved = _flutter(pencil, thrust, top, closest=len(pencil.M)) + _divergence(static, thrust)
+        resolved = _flutter(pencil, thrust, top, len(pencil.M), 1.0) + _divergence(static, thrust)
         slow = len(_growing(pencil, thrust / 2, top, GROWING / 10)) > 0  # grows from the start, and is seen only here
         if not resolved and not slow and _on_axis(pencil, thrust, top):
             raise ConvergenceError(f"critical thrust near {thrust:.6g}: an instability there cannot be resolved")
@@ -92,10 +92,12 @@ def distinct(found: list[Crossing], limit: float) -> list[Crossing]:
     return kept
 
 
-def _flutter(pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST) -> list[Crossing]:
+def _flutter(
+    pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST, beside: float = BESIDE_AXIS
+) -> list[Crossing]:
     """Crossings of complex roots next to an approximate thrust."""
     s = damped_roots(pencil, thrust)
-    s = s[(s.imag > 0) & (np.abs(s) < top)]
+    s = s[(s.imag > 0) & (np.abs(s) < top) & (np.abs(s.real) <= beside * np.abs(s))]
     points = []
     for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:closest]]:
         point = imaginary_root(pencil, thrust, root.imag**2)
@@ -224,11 +226,17 @@ def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float, drifts
 
 def with_rates(pencil: Pencil) -> Pencil:
     """The static problem, with the rates of motions that meet no stiffness in place of the motions."""
+    free = free_motions(pencil)
+    K0 = pencil.K0 + damping_of(pencil) @ free @ free.T
+    dead = None if pencil.dead is None else pencil.dead - pencil.dead @ free @ free.T
+    return replace(pencil, K0=K0, K1=pencil.K1 - pencil.K1 @ free @ free.T, C=None, dead=dead)
+
+
+def free_motions(pencil: Pencil) -> Array:
+    """Rigid-body motions on which no load acts, as orthonormal columns among zero ones, shape (n, rigid)."""
     loads = [load / np.abs(load).max() for load in (pencil.K1, pencil.dead) if load is not None and load.any()]
     free = np.zeros((len(pencil.M), pencil.rigid))
     if pencil.rigid:
         _, size, motions = np.linalg.svd(np.vstack(loads)[:, : pencil.rigid])
         free[: pencil.rigid] = motions.T * (size < UNCOUPLED)
-    K0 = pencil.K0 + damping_of(pencil) @ free @ free.T
-    dead = None if pencil.dead is None else pencil.dead - pencil.dead @ free @ free.T
-    return replace(pencil, K0=K0, K1=pencil.K1 - pencil.K1 @ free @ free.T, C=None, dead=dead)
+    return free

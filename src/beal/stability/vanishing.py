@@ -13,10 +13,11 @@ import scipy.linalg
 
 from beal.discretisation.build import Formulation, discretise
 from beal.errors import ConvergenceError, ModelError
-from beal.stability.critical import COMPLETE_SPARE, CriticalThrust, critical_thrust
+from beal.stability.critical import COMPLETE_SPARE, MOST_DAMPED, CriticalThrust, critical_thrust
 from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
+from beal.stability.large import Reduction, is_large
 from beal.stability.pencil import UNCOUPLED, Array, Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined
 from beal.stability.ridge import Instability, Kind
@@ -84,19 +85,21 @@ def vanishing_damping_limit(
         return undamped
     with one_thread():
         limit = elastic.critical_thrust or elastic.searched_to
-        operators = discretise(vehicle, formulation, order=FIRST_ORDER["legendre"])
+        large = Reduction(vehicle, formulation, vanishing=True) if is_large(vehicle) else None
+        operators = large.operators if large else discretise(vehicle, formulation, order=FIRST_ORDER["legendre"])
+        watched = min(elastic.watched_modes, MOST_DAMPED)
         full = pencil(operators)
-        plain = reduced(replace(full, C=None), elastic.watched_modes + COMPLETE_SPARE)
-        small = reduced(full, elastic.watched_modes + COMPLETE_SPARE)
+        plain = reduced(replace(full, C=None), watched + COMPLETE_SPARE)
+        small = reduced(full, watched + COMPLETE_SPARE)
         parted = len(plain.held) == 2 and not small.held
-        found = _parted(full, plain.held[0]) if parted else _first_fed(small, limit, elastic.watched_modes)
+        found = _parted(full, plain.held[0]) if parted else _first_fed(small, limit, watched)
         if found is None:
             return undamped
         thrust, W = found
         mode = closest_mode(plain, thrust, W, limit)
         nothing = np.empty(0)
         guess = Instability(CriticalPoint(thrust, W, True, 0.0, nothing, nothing), FLUTTER, (mode, mode))
-        steps = partial(ladder, vehicle, formulation, "legendre", polish=_polish)
+        steps = large.points if large else partial(ladder, vehicle, formulation, "legendre", polish=_polish)
         point, error = refined(guess, steps(guess), tolerance or default_tolerance(vehicle, "legendre"))
     first = replace(
         elastic,
@@ -105,6 +108,7 @@ def vanishing_damping_limit(
         modes=(mode, mode),
         angular_frequency=float(np.sqrt(point.W)),
         error_estimate=error,
+        watched_modes=watched,
         border=False,
     )
     return first if undamped.elastic is None else replace(undamped, elastic=first)
