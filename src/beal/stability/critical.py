@@ -12,7 +12,7 @@ from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
-from beal.stability.damped import damped_events, fed_modes, highest_frequency, unstable_roots
+from beal.stability.damped import damped_events, fed_modes, highest_frequency, unloaded, unstable_roots
 from beal.stability.dead_loads import check_dead_loads
 from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
@@ -304,8 +304,8 @@ def _first_damped(task: _Task, small: Pencil, undamped: Pencil) -> tuple[str, In
         early = min(FIRST * task.limit, first / 2)
         own = unstable_roots(small, early, top) - 2 * len(fed_modes(small, undamped, early, task.limit, top))
     if fed := fed_modes(small, undamped, first / 2, task.limit, top):  # from the first thrust on
-        mode, W = fed[0]
-        return "tumbling" if own else drift, Instability(_start(0.0, W), "flutter", (mode, mode))
+        start = _start(0.0, unloaded(undamped, fed[0]))
+        return "tumbling" if own else drift, Instability(start, "flutter", (fed[0], fed[0]))
     return "tumbling" if own else drift, _first_of(found, own)
 
 

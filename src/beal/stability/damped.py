@@ -182,14 +182,19 @@ def unstable_roots(pencil: Pencil, thrust: float, top: float) -> int:
     return len(_growing(pencil, thrust, top))
 
 
-def fed_modes(pencil: Pencil, undamped: Pencil, thrust: float, limit: float, top: float) -> list[tuple[int, float]]:
-    """Number and W = omega^2 of the elastic modes below a frequency that grow as they swing, the fastest first."""
+def fed_modes(pencil: Pencil, undamped: Pencil, thrust: float, limit: float, top: float) -> list[int]:
+    """Numbers of the elastic modes below a frequency that grow as they swing, the fastest first."""
     s = _growing(pencil, thrust, top)
     s = s[s.imag > 0]
     drifts = pencil.rigid > undamped.rigid
-    W = s[np.argsort(-s.real)].imag ** 2
-    modes = [(closest_mode(undamped, thrust, float(each), limit, drifts), float(each)) for each in W]
-    return [(mode, each) for mode, each in modes if mode]
+    modes = [closest_mode(undamped, thrust, W, limit, drifts) for W in s[np.argsort(-s.real)].imag ** 2]
+    return [mode for mode in modes if mode]
+
+
+def unloaded(undamped: Pencil, mode: int) -> float:
+    """W of an elastic mode without thrust."""
+    roots = np.append(undamped.roots(0.0).real[undamped.rigid :], undamped.held)
+    return float(np.sort(roots)[mode - 1])
 
 
 def _growing(pencil: Pencil, thrust: float, top: float, least: float = GROWING) -> ComplexArray:

@@ -14,7 +14,7 @@ import scipy.linalg
 from beal.discretisation.build import Formulation, discretise
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.critical import COMPLETE_SPARE, MOST_DAMPED, CriticalThrust, critical_thrust
-from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct
+from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct, unloaded
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
 from beal.stability.large import Reduction, is_large
@@ -92,11 +92,10 @@ def vanishing_damping_limit(
         plain = reduced(replace(full, C=None), watched + COMPLETE_SPARE)
         small = reduced(full, watched + COMPLETE_SPARE)
         parted = len(plain.held) == 2 and not small.held
-        found = _parted(full, plain.held[0]) if parted else _first_fed(small, limit, watched)
+        found = _parted(full, plain, limit) if parted else _first_fed(small, plain, limit, watched)
         if found is None:
             return undamped
-        thrust, W = found
-        mode = closest_mode(plain, thrust, W, limit)
+        thrust, W, mode = found
         nothing = np.empty(0)
         guess = Instability(CriticalPoint(thrust, W, True, 0.0, nothing, nothing), FLUTTER, (mode, mode))
         steps = large.points if large else partial(ladder, vehicle, formulation, "legendre", polish=_polish)
@@ -118,8 +117,8 @@ def _polish(full: Pencil, kind: Kind, thrust: float, W: float) -> CriticalPoint:
     return vanishing_root(full, thrust, W)
 
 
-def _first_fed(small: Pencil, limit: float, watched: int) -> tuple[float, float] | None:
-    """Thrust and W at which a vanishing damping first feeds a mode, below a limit up to which all roots are real."""
+def _first_fed(small: Pencil, plain: Pencil, limit: float, watched: int) -> tuple[float, float, int] | None:
+    """Thrust, W and number of the mode that a vanishing damping first feeds, below a limit where all roots are real."""
     found: list[Crossing] = []
     for thrust in crossings(small, limit, vanishing=True):
         W, drained = _drained(small, thrust, watched)
@@ -133,12 +132,16 @@ def _first_fed(small: Pencil, limit: float, watched: int) -> tuple[float, float]
         W, drained = _drained(small, middle, watched)
         worst = int(np.argmin(drained / np.sqrt(W)))
         if drained[worst] < -GROWING * np.sqrt(W[worst]):
-            return found[start - 1][:2] if start else (0.0, float(W[worst]))
+            if start:
+                thrust, W_fed, _ = found[start - 1]
+                return thrust, W_fed, closest_mode(plain, thrust, W_fed, limit)
+            mode = closest_mode(plain, middle, float(W[worst]), limit)
+            return 0.0, unloaded(plain, mode), mode
     return None
 
 
-def _parted(full: Pencil, W: float) -> tuple[float, float]:
-    """Thrust and W at which a vanishing damping that couples translation and rotation on a foundation parts them: 0.
+def _parted(full: Pencil, plain: Pencil, limit: float) -> tuple[float, float, int]:
+    """What a vanishing damping first feeds that couples translation and rotation on a foundation: one of them, at once.
 
     As they have one eigenvector, the roots move by the square root of i times the damping, which feeds one of them.
     """
@@ -148,7 +151,8 @@ def _parted(full: Pencil, W: float) -> tuple[float, float]:
             "damping: its vanishing limit is not known where it couples translation and rotation, of one frequency on "
             "this foundation, through bending alone"
         )
-    return 0.0, W
+    W = min(plain.held)
+    return 0.0, W, closest_mode(plain, 0.0, W, limit)
 
 
 def _drained(small: Pencil, thrust: float, watched: int) -> tuple[Array, Array]:
