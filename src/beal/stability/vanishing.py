@@ -12,13 +12,13 @@ import numpy as np
 import scipy.linalg
 
 from beal.discretisation.build import Formulation, discretise
-from beal.errors import ConvergenceError, ModelError
+from beal.errors import ModelError
 from beal.stability.critical import COMPLETE_SPARE, MOST_DAMPED, CriticalThrust, critical_thrust
 from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct, unloaded
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
 from beal.stability.large import Reduction, is_large
-from beal.stability.pencil import UNCOUPLED, Array, Pencil, pencil, reduced
+from beal.stability.pencil import Array, Pencil, pencil, reduced
 from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined
 from beal.stability.ridge import Instability, Kind
 from beal.stability.threads import one_thread
@@ -92,7 +92,7 @@ def vanishing_damping_limit(
         plain = reduced(replace(full, C=None), watched + COMPLETE_SPARE)
         small = reduced(full, watched + COMPLETE_SPARE)
         parted = len(plain.held) == 2 and not small.held
-        found = _parted(full, plain, limit) if parted else _first_fed(small, plain, limit, watched)
+        found = _parted(plain, limit) if parted else _first_fed(small, plain, limit, watched)
         if found is None:
             return undamped
         thrust, W, mode = found
@@ -140,17 +140,12 @@ def _first_fed(small: Pencil, plain: Pencil, limit: float, watched: int) -> tupl
     return None
 
 
-def _parted(full: Pencil, plain: Pencil, limit: float) -> tuple[float, float, int]:
-    """What a vanishing damping first feeds that couples translation and rotation on a foundation: one of them, at once.
+def _parted(plain: Pencil, limit: float) -> tuple[float, float, int]:
+    """The same where damping couples translation and rotation of one frequency on a foundation: nothing is borne.
 
-    As they have one eigenvector, the roots move by the square root of i times the damping, which feeds one of them.
+    Under thrust the two roots have one eigenvector x, and move by the square root of -i e omega psi^T C x, which feeds
+    one of them unless it vanishes.
     """
-    C = damping_of(full)
-    if abs(C[0, 1]) <= UNCOUPLED * np.abs(C).max():
-        raise ConvergenceError(
-            "damping: its vanishing limit is not known where it couples translation and rotation, of one frequency on "
-            "this foundation, through bending alone"
-        )
     W = min(plain.held)
     return 0.0, W, closest_mode(plain, 0.0, W, limit)
 
