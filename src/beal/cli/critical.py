@@ -28,6 +28,7 @@ def critical(
     as_json: AsJson = False,
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
+    from beal.errors import ModelError
     from beal.interop.files import load
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.vanishing import vanishing_damping_limit
@@ -41,18 +42,22 @@ def critical(
         method="complete" if complete else "fast",
     )
     events = critical_events(vehicle, max_thrust, formulation, size) if every else []  # type: ignore[arg-type]
-    beside: dict[str, CriticalThrust] = {}
+    beside: dict[str, CriticalThrust | None] = {}
     if vehicle.damped:
-        beside["undamped"] = critical_thrust(vehicle.undamped, max_thrust, formulation)  # type: ignore[arg-type]
-        beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
+        try:
+            beside["undamped"] = critical_thrust(vehicle.undamped, max_thrust, formulation)  # type: ignore[arg-type]
+            beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
+        except ModelError:  # the damping is what bears the dead loads: all else was checked above
+            beside = dict.fromkeys(BESIDE)
     if as_json:
         listed = {"events": [_event(event) for event in events]} if every else {}
-        others = {name: asdict(other) for name, other in beside.items()}
+        others = {name: other and asdict(other) for name, other in beside.items()}
         emit({**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **others, **listed})
         return
     print(_verdict(vehicle, found))
     for name, other in beside.items():
-        print(f"{BESIDE[name]}: {_instability(vehicle, other.elastic or other)}")
+        verdict = _instability(vehicle, other.elastic or other) if other else "its dead loads alone make it unstable"
+        print(f"{BESIDE[name]}: {verdict}")
     print(_searched(vehicle, found))
     if convention := _convention(vehicle, formulation):
         print(convention)
