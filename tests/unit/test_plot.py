@@ -32,17 +32,17 @@ def labels(ax):
     return sorted(text.get_text() for text in ax.texts)
 
 
-def test_a_joint_breaks_the_line_of_a_mode_shape(ax):
+def test_a_joint_breaks_the_line_of_a_deflection(ax):
     operators = discretise(catalog.tsto(0.2, 3000.0, 300.0))
-    plot.mode_shapes(spectrum(operators, 0.0, 1), operators, ax)
+    plot.deflections(spectrum(operators, 0.0, 1), operators, ax)
     forward, aft = (line for line in ax.lines if len(line.get_xdata()) > 2)
     assert forward.get_xdata()[-1] == aft.get_xdata()[0] == pytest.approx(0.2)
     assert abs(forward.get_ydata()[-1] - aft.get_ydata()[0]) > 0.05
 
 
-def test_mode_shapes_are_scaled_to_one(ax):
+def test_deflections_are_scaled_to_one(ax):
     operators = discretise(catalog.tsto(0.2, 3000.0, 3000.0))
-    plot.mode_shapes(spectrum(operators, 0.0, 3), operators, ax)
+    plot.deflections(spectrum(operators, 0.0, 3), operators, ax)
     heights = [abs(line.get_ydata()).max() for line in ax.lines if len(line.get_xdata()) > 2]
     assert max(heights) == pytest.approx(1.0)
 

@@ -9,7 +9,7 @@ from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
 from beal.plot.refined import draw, regions
-from beal.plot.style import BLACK, axes
+from beal.plot.style import BLACK, axes, style
 from beal.study.refined import RefinedMap
 
 if TYPE_CHECKING:
@@ -59,21 +59,22 @@ def stability_map(
     ModelError
         If a refined map has other than two axes.
     """
-    ax = axes(ax)
-    mesh: ScalarMappable | None = draw(ax, chart, levels) if isinstance(chart, RefinedMap) else None
-    grid = chart.grid if isinstance(chart, RefinedMap) else chart
-    across, up = grid.critical_thrust.dims
-    x, y = (np.asarray(grid[name], dtype=float) for name in (across, up))
-    x_edges, y_edges = (x, y) if mesh else (_edges(x), _edges(y))
-    mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
-    _labels(ax, x, y, regions(grid))
-    ax.set_xlabel(NAMES.get(str(across), str(across)))
-    ax.set_ylabel(NAMES.get(str(up), str(up)))
-    ax.set_xlim(x_edges[0], x_edges[-1])
-    ax.set_ylim(y_edges[0], y_edges[-1])
-    if colorbar:
-        ax.figure.colorbar(mesh, ax=ax, label="critical thrust $P L^2/EI$")
-    return ax
+    with style():
+        ax = axes(ax)
+        mesh: ScalarMappable | None = draw(ax, chart, levels) if isinstance(chart, RefinedMap) else None
+        grid = chart.grid if isinstance(chart, RefinedMap) else chart
+        across, up = grid.critical_thrust.dims
+        x, y = (np.asarray(grid[name], dtype=float) for name in (across, up))
+        x_edges, y_edges = (x, y) if mesh else (_edges(x), _edges(y))
+        mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
+        _labels(ax, x, y, regions(grid))
+        ax.set_xlabel(NAMES.get(str(across), str(across)))
+        ax.set_ylabel(NAMES.get(str(up), str(up)))
+        ax.set_xlim(x_edges[0], x_edges[-1])
+        ax.set_ylim(y_edges[0], y_edges[-1])
+        if colorbar:
+            ax.figure.colorbar(mesh, ax=ax, label="critical thrust $P L^2/EI$")
+        return ax
 
 
 def _cells(
