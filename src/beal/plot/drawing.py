@@ -116,12 +116,12 @@ def _springs(ax: "Axes", joint: Joint, x: float, half: float, width: float) -> N
     """What lies in the gap of a joint: a zigzag and a circle, one over the other where both springs give."""
     turns, slides = math.isfinite(joint.rotational_stiffness), math.isfinite(joint.shear_stiffness)
     if slides:
-        foot = 0.1 * half if turns else -half
+        foot = 0.0 if turns else -half
         ax.plot([x - width, x], [half, half], **LINE)
         ax.plot([x + width, x], [foot, foot], **LINE)
-        spring(ax, (x, half), (x, foot), 0.6 * width)
+        spring(ax, (x, half), (x, foot), 0.7 * width, teeth=2 if turns else 3)
     if turns:
-        y = -0.5 * half if slides else 0.0
+        y = -0.55 * half if slides else 0.0
         ax.plot([x - width, x + width], [y, y], **LINE)
         disc(ax, (x, y), min(0.6 * width, 0.4 * half), facecolor=ORANGE, zorder=5)
 

@@ -24,7 +24,7 @@ AMPLITUDE, STEEPEST = 0.07, 0.7  # largest deflection and slope
 ROW = 0.22  # from one mode to the next
 WORDS = 0.3  # room beside the vehicle
 PHASES = 8  # of a cycle, in which a complex mode is drawn
-COMPLEX = 1e-3  # imaginary part over the largest deflection, above which a mode has no nodes
+COMPLEX = 0.05  # part out of phase over the largest deflection, above which a mode has no nodes
 ZERO = 1e-6  # deflection over the largest one, below which it has no sign
 GROWING = 1e-6  # growth rate over the modulus of the root, above which it is told
 
@@ -46,8 +46,8 @@ def mode_shapes(spectrum: Spectrum, operators: Operators, ax: "Axes | None" = No
     """Draw the vehicle bent by each mode of a spectrum, the first at the top.
 
     Where a joint gives, both faces are drawn with the jumps of deflection and slope between them; white circles are
-    nodes. The parts of a mode in flutter move out of phase, so that it has no nodes: its axis is drawn at eight phases
-    of a cycle inside its envelope, its growth left out. Each mode has a scale of its own. The body is that of
+    nodes. A mode whose parts move out of phase by a twentieth of its largest deflection or more, as in flutter, has
+    none: its axis is drawn at eight phases of a cycle inside its envelope, its growth left out. Each mode has a scale of its own. The body is that of
     `beal.plot.vehicle`, thinner.
 
     Parameters
@@ -200,5 +200,5 @@ def _words(spectrum: Spectrum, number: int, si: bool) -> str:
         lines.append(f"{value} Hz" if si else rf"$\omega$ = {value}")
     if abs(growth) > least:
         manner = "decays" if growth < 0 else "grows" if omega > least else "diverges"
-        lines.append(f"{manner}, {abs(growth):.3g}" + (" 1/s" if si else ""))
+        lines.append(f"{manner}, {abs(growth):#.3g}".rstrip(".") + (" 1/s" if si else ""))
     return "\n".join(lines)

@@ -15,28 +15,24 @@ Array = NDArray[np.float64]
 Point = tuple[float, float]
 
 LINE: dict[str, Any] = {"color": BLACK, "linewidth": 0.9, "solid_capstyle": "round", "solid_joinstyle": "round"}
-TEETH = 3  # of a spring
 TURNS = 2  # of a coil
 STROKES = 6  # of a hatched ground
 
 
-def spring(ax: "Axes", start: Point, end: Point, width: float) -> None:
+def spring(ax: "Axes", start: Point, end: Point, width: float, teeth: int = 3) -> None:
     """A zigzag from one point to another."""
     a, b = np.array(start), np.array(end)
     across = width * np.array([a[1] - b[1], b[0] - a[0]]) / np.hypot(*(b - a))
-    share = np.concatenate(([0.0], np.linspace(0.2, 0.8, 2 * TEETH + 1), [1.0]))
-    side = np.concatenate(([0.0, 0.0], np.tile([1.0, -1.0], TEETH)[:-1], [0.0, 0.0]))
+    share = np.concatenate(([0.0], np.linspace(0.2, 0.8, 2 * teeth + 1), [1.0]))
+    side = np.concatenate(([0.0, 0.0], np.tile([1.0, -1.0], teeth)[:-1], [0.0, 0.0]))
     ax.plot(*(a[:, None] + np.outer(b - a, share) + np.outer(across, side)), **LINE)
 
 
-def coil(ax: "Axes", start: Point, radius: float, outward: float) -> None:
+def coil(ax: "Axes", centre: Point, radius: float, outward: float) -> None:
     """A spiral around a point, that ends one radius to its right (``outward`` 1) or left (-1)."""
     turn = np.linspace(0.0, 2 * np.pi * TURNS, 60)
-    x, y = (
-        start[0] + outward * radius * turn / turn[-1] * np.cos(turn),
-        start[1] + radius * turn / turn[-1] * np.sin(turn),
-    )
-    ax.plot(x, y, **LINE)
+    r = radius * turn / turn[-1]
+    ax.plot(centre[0] + outward * r * np.cos(turn), centre[1] + r * np.sin(turn), **LINE)
 
 
 def disc(ax: "Axes", centre: Point, radius: float, **look: Any) -> None:
