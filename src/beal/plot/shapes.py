@@ -47,8 +47,8 @@ def mode_shapes(spectrum: Spectrum, operators: Operators, ax: "Axes | None" = No
 
     Where a joint gives, both faces are drawn with the jumps of deflection and slope between them; white circles are
     nodes. A mode whose parts move out of phase by a twentieth of its largest deflection or more, as in flutter, has
-    none: its axis is drawn at eight phases of a cycle inside its envelope, its growth left out. Each mode has a scale of its own. The body is that of
-    `beal.plot.vehicle`, thinner.
+    none: its axis is drawn at eight phases of a cycle inside its envelope, its growth left out. Each mode has a scale
+    of its own. The body is that of `beal.plot.vehicle`, thinner.
 
     Parameters
     ----------
