@@ -63,6 +63,13 @@ def test_no_gap_is_left_where_a_line_becomes_dotted(ax, damped):
     assert np.flatnonzero(both).tolist() == [np.flatnonzero(np.isfinite(solid.get_ydata()))[-1]]
 
 
+def test_two_thrusts_are_enough(ax):
+    curve = thrust_curve(catalog.beck(), to=24.0, points=2, modes=2)
+    plot.thrust_curve(curve, ax)
+    dotted = [line for line in ax.lines if line.get_linestyle() == ":"]
+    assert [np.isfinite(line.get_ydata()).tolist() for line in dotted] == [[True, True], [True, True]]
+
+
 def test_a_mode_that_begins_to_grow_is_named_once(ax, damped):
     curve, critical = damped
     plot.thrust_curve(curve, ax, critical)
@@ -112,6 +119,13 @@ def test_a_vehicle_that_tumbles_is_marked_by_its_elastic_modes(ax):
     plot.thrust_curve(thrust_curve(vehicle, to=150.0, points=16), ax, critical)
     marks = [line for line in ax.lines if "P =" in str(line.get_label())]
     assert [line.get_xdata()[0] for line in marks] == [critical.elastic.critical_thrust]
+    assert marks[0].get_label().startswith(f"flutter rigid body{EN}1, P = ")
+
+
+def test_a_vehicle_that_folds_without_resistance_is_marked_at_zero(ax):
+    vehicle = catalog.tsto(0.6, 0.0, 5000.0)
+    plot.thrust_curve(thrust_curve(vehicle, to=100.0, points=11), ax, critical_thrust(vehicle))
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["divergence 1, P = 0"]
 
 
 def test_growth_above_zero_is_on_tinted_ground(ax, damped):

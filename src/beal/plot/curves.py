@@ -59,7 +59,7 @@ def thrust_curve(
         scale = curve.angular_frequency[0].min() if relative else 1.0
         for number, (omega, unstable) in enumerate(zip(curve.angular_frequency.T, _unstable(curve).T, strict=True)):
             color = CYCLE[number % len(CYCLE)]
-            near = np.convolve(unstable, [1, 1, 1], "same") > 0  # the points beside it too, so that no gap is left
+            near = np.convolve(unstable, [1, 1, 1])[1:-1] > 0  # the points beside it too, so that no gap is left
             ax.plot(curve.thrust, np.where(unstable, np.nan, omega / scale), color=color, label=f"mode {number + 1}")
             ax.plot(
                 curve.thrust, np.where(near, omega / scale, np.nan), color=color, linestyle=":", linewidth=1.2, zorder=3
@@ -190,8 +190,8 @@ class _Change:
     @property
     def name(self) -> str:
         """The kind and its modes: two that meet, or one that diverges or, damped, begins to grow."""
-        low, high = self.modes
-        return f"{self.kind} {low}" if low == high else f"{self.kind} {low}\N{EN DASH}{high}"
+        names = [str(mode) if mode else "rigid body" for mode in sorted(set(self.modes))]
+        return f"{self.kind} " + "\N{EN DASH}".join(names)
 
 
 def _changes(critical: CriticalThrust | None, events: Sequence[Event] = ()) -> Iterator[_Change]:
@@ -211,7 +211,8 @@ def _mark(ax: "Axes", change: _Change, at: tuple[float, float], nondimensional: 
     color, size = (BLACK, 6.5) if change.first else (GREY, 4.5)
     look: dict[str, Any] = {"markersize": size, "markeredgewidth": size / 5, "markerfacecolor": "white", "zorder": 5}
     factor, unit = thrust_unit(change.thrust, nondimensional)
-    label = f"{change.name}, P = {change.thrust / factor:#.5g} {unit}".rstrip(" .")
+    value = f"{change.thrust / factor:#.5g}".rstrip(".") if change.thrust else "0"
+    label = f"{change.name}, P = {value} {unit}".rstrip()
     ax.plot([at[0]], [at[1]], MARKERS[change.kind], color=color, clip_on=False, label=label, **look)
     marks = [pair for pair in zip(*ax.get_legend_handles_labels(), strict=True) if "P =" in pair[1]]
     ax.legend(*zip(*marks, strict=True), handletextpad=0.2, frameon=True, framealpha=0.9, edgecolor="none")
