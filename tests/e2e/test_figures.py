@@ -83,6 +83,27 @@ def test_without_matplotlib_the_message_says_what_to_install(beal_here, tsto, mo
     assert done.stderr == "beal: --figure: needs matplotlib, which is not installed; install beal[plot]\n"
 
 
+def study(tsto, *axes):
+    values = '{from = 1, to = 1e4, points = 3, spacing = "log"}'
+    return f'model = "{tsto}"\n[grid]\n' + "\n".join(f'"joint[0].{axis}_stiffness" = {values}' for axis in axes)
+
+
+@pytest.mark.parametrize("refine", [(), ("--refine", 0.1)])
+def test_a_map_is_drawn(result_of, written, tsto, tmp_path, refine):
+    written(study(tsto, "rotational", "shear"), "study.toml")
+    found = result_of("map", "study.toml", "-o", "map.zarr", *refine, "--figure", "map.svg")
+    assert found["figure"] == "map.svg"
+    assert (tmp_path / "map.svg").read_bytes().startswith(BEGINNINGS["svg"])
+
+
+def test_a_map_over_one_axis_is_refused_before_it_is_computed(beal_here, written, tsto, tmp_path):
+    written(study(tsto, "shear"), "study.toml")
+    done = beal_here("map", "study.toml", "-o", "map.zarr", "--figure", "map.svg")
+    assert done.returncode == 2
+    assert done.stderr == "beal: --figure: draws maps over two axes of more than one value each, found 3\n"
+    assert not (tmp_path / "map.zarr").exists()
+
+
 def curves(vehicle):
     curve = thrust_curve(vehicle, to=120.0, points=11, modes=2)
     return curve_figure(vehicle, curve, critical_thrust(vehicle), critical_events(vehicle, 120.0))

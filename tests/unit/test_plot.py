@@ -103,6 +103,19 @@ def test_maps_have_logarithmic_axes_with_units(ax):
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
 
 
+@pytest.mark.parametrize(
+    ("units", "labels"),
+    [
+        ("nondimensional", ["rotational stiffness $k_r L/EI$", "critical thrust $P L^2/EI$"]),
+        ("SI", ["rotational stiffness $k_r$ (N m/rad)", "critical thrust P (N)"]),
+    ],
+)
+def test_a_map_is_labelled_in_the_units_of_its_vehicle(ax, units, labels):
+    found = chart(1, 1, 2).rename(k="joint[0].rotational_stiffness").assign_attrs(units=units)
+    plot.stability_map(found, ax)
+    assert [ax.get_xlabel(), ax.figure.axes[1].get_ylabel()] == labels
+
+
 @pytest.mark.parametrize("quantity", ["displacement", "rate", "slope"])
 def test_a_response_is_drawn_as_computed(ax, quantity):
     moved = solve(catalog.tsto(0.6, 5000.0, 5000.0), 0.5, 50.0, initial=ModeShape(1, 1e-3))

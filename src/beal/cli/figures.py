@@ -127,6 +127,22 @@ def response_figure(found: "Response", nondimensional: bool) -> "Figure":
     return figure
 
 
+def map_figure(out: str, refined: bool) -> "Figure":
+    """The critical thrust over two axes, from the result of a map."""
+    import xarray
+    from matplotlib.figure import Figure
+
+    from beal import plot
+    from beal.study.points import GROUP
+    from beal.study.refined import RefinedMap
+
+    figure = Figure(figsize=(WIDE, 1.3 * HIGH), layout="constrained")
+    with xarray.open_zarr(out, chunks=None) as grid:
+        chart = RefinedMap(grid, xarray.open_zarr(out, group=GROUP, chunks=None)) if refined else grid
+        plot.stability_map(chart, figure.subplots())
+    return figure
+
+
 def _fitted(draw: "Callable[[Axes], Axes]") -> "Figure":
     """A figure as high as the drawing in it; first it is higher, so that only its width limits the drawing."""
     from matplotlib.figure import Figure
