@@ -106,6 +106,14 @@ def test_a_step_and_a_taper_of_the_stiffness_show():
     assert between == pytest.approx(0.03 * ((16 + 81) / 2 / 81) ** 0.25, rel=1e-4)
 
 
+def test_a_rigid_stage_is_as_wide_as_the_stiffest_of_the_others():
+    rigid = beam().model_construct(**dict(beam()) | {"bending_stiffness": math.inf})
+    flexible_beam, widest, drawn = sections(
+        Vehicle(stages=[beam(), beam(bending_stiffness=16.0), rigid], joints=[Joint()] * 2)
+    )
+    assert drawn.half_width.max() == widest.half_width.max() == 2 * flexible_beam.half_width.max()
+
+
 @pytest.mark.parametrize(
     ("joint", "label", "circles"),
     [

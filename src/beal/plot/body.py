@@ -56,7 +56,7 @@ def sections(vehicle: Vehicle, half_width: float = HALF_WIDTH) -> list[Section]:
     """The bodies of all stages, from nose to tail; a flexible joint leaves a gap between two of them.
 
     A beam has a bending stiffness EI and no radius: the drawn width goes with EI^(1/4), as the radius of geometrically
-    similar sections of one material does.
+    similar sections of one material does. A rigid stage is as wide as the stiffest of the others.
 
     Parameters
     ----------
@@ -74,12 +74,13 @@ def sections(vehicle: Vehicle, half_width: float = HALF_WIDTH) -> list[Section]:
     >>> [body.half_width.max().item() for body in sections(Vehicle(stages=stages, joints=[Joint()]), 0.04)]
     [0.02, 0.04]
     """
-    profiles = [_stiffness(stage, vehicle.length) for stage in vehicle.stages]
-    widest = half_width * vehicle.length / max(stiffness.max() for _, stiffness in profiles) ** 0.25
+    given = [stiffness for stage in vehicle.stages for stiffness in _table(stage)[1] if math.isfinite(stiffness)]
+    stiffest = max(given, default=1.0)
+    profiles = [_profile(stage, vehicle.length, stiffest) for stage in vehicle.stages]
     gaps = (0.0, *(gap(vehicle, number) for number in range(len(vehicle.joints))), 0.0)
     return [
-        Section(np.clip(front + x, front + before, front + x[-1] - after), widest * stiffness**0.25)
-        for (x, stiffness), front, before, after in zip(profiles, vehicle.boundaries, gaps, gaps[1:], strict=False)
+        Section(np.clip(front + x, front + before, front + x[-1] - after), half_width * vehicle.length * share**0.25)
+        for (x, share), front, before, after in zip(profiles, vehicle.boundaries, gaps, gaps[1:], strict=False)
     ]
 
 
@@ -96,14 +97,21 @@ def flexible(joint: Joint) -> bool:
     return math.isfinite(joint.rotational_stiffness) or math.isfinite(joint.shear_stiffness)
 
 
-def _stiffness(stage: Stage, length: float) -> tuple[Array, Array]:
-    """Stations from the front of a stage, close enough for a smooth outline, and the stiffness at each."""
+def _table(stage: Stage) -> tuple[Array, Array]:
+    """Stations from the front of a stage, and the stiffness at each."""
     given = stage.bending_stiffness
-    table = given if isinstance(given, StationTable) else StationTable(x=(0.0, stage.length), value=(given, given))
-    ends, values = np.array(table.x), np.array(table.value)
-    x, stiffness = [ends[:1]], [values[:1]]
+    if isinstance(given, StationTable):
+        return given.arrays.x, given.arrays.value
+    return np.array([0.0, stage.length]), np.full(2, given)
+
+
+def _profile(stage: Stage, length: float, stiffest: float) -> tuple[Array, Array]:
+    """Stations, close enough for a smooth outline, and at each the stiffness over the largest finite one, at most 1."""
+    ends, values = _table(stage)
+    values = np.minimum(values, stiffest) / stiffest
+    x, share = [ends[:1]], [values[:1]]
     for n in range(1, len(ends)):
-        share = np.linspace(0.0, 1.0, 1 + max(1, math.ceil(STEPS * (ends[n] - ends[n - 1]) / length)))[1:]
-        x.append(ends[n - 1] + share * (ends[n] - ends[n - 1]))
-        stiffness.append(values[n - 1] + share * (values[n] - values[n - 1]))
-    return np.concatenate(x), np.concatenate(stiffness)
+        part = np.linspace(0.0, 1.0, 1 + max(1, math.ceil(STEPS * (ends[n] - ends[n - 1]) / length)))[1:]
+        x.append(ends[n - 1] + part * (ends[n] - ends[n - 1]))
+        share.append(values[n - 1] + part * (values[n] - values[n - 1]))
+    return np.concatenate(x), np.concatenate(share)
