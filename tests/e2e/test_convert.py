@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from beal.interop.files import imported
-from beal.vehicle.file import dumps, load
+from beal.interop.files import imported, load
+from beal.vehicle.file import dumps
 
 STICK = Path(__file__).parents[2] / "examples" / "plain_stick.bdf"
 LAUNCHER = Path(__file__).parents[1] / "data" / "generic_small_launcher.bdf"

@@ -12,8 +12,7 @@ from beal.interop.nastran_deck import nastran_text
 from beal.interop.netcdf import write_netcdf
 from beal.interop.stations import read_stations, stations_sheet, stations_text
 from beal.interop.uff import write_uff
-from beal.vehicle.file import dumps
-from beal.vehicle.file import load as load_toml
+from beal.vehicle.file import dumps, read_toml, vehicle_from
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -82,7 +81,9 @@ def imported(path: str | os.PathLike[str], **options: Any) -> Imported:
         )
     if ending in DECKS:
         return read_nastran(path, **options)
-    return read_stations(path, **options) if ending in TABLES else Imported(load_toml(path))
+    if ending in TABLES:
+        return read_stations(path, **options)
+    return Imported(vehicle_from(read_toml(path), str(path)))
 
 
 def content(vehicle: Vehicle, path: str | os.PathLike[str], elements: int | None = None) -> bytes:
