@@ -16,6 +16,7 @@ import xarray
 from beal.cli.output import digits, emit, new_file, quantity
 from beal.discretisation import FORMULATIONS
 from beal.errors import ModelError
+from beal.interop.files import load
 from beal.vehicle import Thrust, catalog
 from beal.vehicle.file import loads
 

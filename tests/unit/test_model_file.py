@@ -7,6 +7,7 @@ import re
 import pytest
 
 from beal.errors import ModelError
+from beal.interop.files import load
 from beal.vehicle import Force, Joint, PointMass, Sensor, Stage, Table, Thrust, Vehicle, catalog, dumps, loads
 from beal.vehicle.file import LARGEST_FILE
 

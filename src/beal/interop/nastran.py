@@ -11,16 +11,18 @@ from pathlib import Path
 from typing import Any, Literal
 
 from beal.errors import ModelError
+from beal.interop.bulk import understood
 from beal.interop.cards import Deck, read_deck
-from beal.interop.stick import described, stick, viewed
-from beal.interop.structure import understood
+from beal.interop.joined import joined
+from beal.interop.stick import described
+from beal.interop.structure import Remark, grouped, listed
+from beal.interop.view import viewed
 from beal.units import to_si
 from beal.vehicle.file import vehicle_from
 from beal.vehicle.vehicle import Vehicle
 
 PLANES = ("xy", "xz", "yx", "yz", "zx", "zy")
-MOST_SHOWN = 20  # problems of one deck
-COUNTED = ("station", "mass", "rotary_inertia")
+FEW, MANY = 20, 200  # problems of one deck that are told one by one; kinds of problems that are told
 
 
 @dataclass(frozen=True)
@@ -94,23 +96,28 @@ def read_nastran(
     view = viewed(found, plane, nose)
     data: dict[str, Any] = {}
     if view is not None:
-        line = stick(found, view)
+        line = joined(found, view)
         if not found.problems:
-            data = described(line, lumps == "spread", found.problems, found.notes)
+            data = described(line, found, lumps == "spread", by_comments=bool(deck.kept))
     kept = _kept(deck, found.problems)
     if found.problems or view is None:
-        shown = found.problems[:MOST_SHOWN]
-        if len(found.problems) > MOST_SHOWN:
-            shown.append(("", f"and {len(found.problems) - MOST_SHOWN} more problems"))
-        raise ModelError(shown, source)
+        raise ModelError(_shown(found.problems), source)
     end = "highest" if nose == "high" else "lowest"
-    found.notes.insert(0, f"the nose is at the {end} {'xyz'[view.axis]}, bending in the plane {view.plane}")
+    notes = [("", f"the nose is at the {end} {'xyz'[view.axis]}, bending in the plane {view.plane}")]
     if kept.get("units") != "nondimensional":
-        found.notes.insert(1, f"units: {length_unit}, {force_unit}, s; mass in {force_unit} s^2/{length_unit}")
+        notes.append(("", f"units: {length_unit}, {force_unit}, s; mass in {force_unit} s^2/{length_unit}"))
         _scale(data, *scales)
     title = "" if deck.kept else Path(path).stem
     vehicle = vehicle_from({"title": title, **_merged(kept, data, source)}, source)
-    return Imported(vehicle, tuple(found.notes), tuple(found.ignored))
+    return Imported(vehicle, listed(notes + found.notes), listed(found.ignored))
+
+
+def _shown(problems: list[Remark]) -> list[Remark]:
+    """All problems where they are few, else one of each kind."""
+    if len(problems) <= FEW:
+        return problems
+    kinds = grouped(problems)
+    return kinds[:MANY] + ([("", f"and {len(kinds) - MANY} more kinds of problems")] if len(kinds) > MANY else [])
 
 
 def _scales(length_unit: str, force_unit: str, problems: list[tuple[str, str]]) -> tuple[float, float]:
@@ -136,10 +143,21 @@ def _scale(data: dict[str, Any], length: float, force: float) -> None:
         "rotary_inertia": force * length,
         "rotational_stiffness": force * length,
         "shear_stiffness": force / length,
+        "rotational_damping": force * length,
+        "shear_damping": force / length,
+        "translation": force / length,
+        "rotation": force * length,
     }
-    for parts in (data["stage"], data["joint"], data["point_mass"]):
-        for part in parts:
-            part.update({key: value * factors[key] for key, value in part.items() if key in factors})
+    ends = [end for end in data["support"].values() if isinstance(end, dict)]
+    for part in (*data["stage"], *data["joint"], *data["point_mass"], *ends):
+        for key in factors.keys() & part.keys():
+            part[key] = _scaled(part[key], factors[key], length)
+
+
+def _scaled(value: Any, factor: float, length: float) -> Any:
+    if isinstance(value, dict):
+        return {"x": [length * x for x in value["x"]], "value": [factor * item for item in value["value"]]}
+    return factor * value
 
 
 def _kept(deck: Deck, problems: list[tuple[str, str]]) -> dict[str, Any]:
