@@ -4,7 +4,8 @@ import pytest
 
 from beal.errors import ModelError
 from beal.interop.files import content, imported
-from beal.interop.stations import stations_text
+from beal.interop.cells import csv_text
+from beal.interop.stations_out import station_rows
 from beal.vehicle import catalog
 
 POINTS = "x,mass_per_length,bending_stiffness\n0,2,30\n1,2,30\n1,4,30\n3,4,30\n"
@@ -66,7 +67,7 @@ def test_a_vehicle_reads_back_with_all_that_it_has(tmp_path, ending):
 
 def test_quantities_carry_their_units_in_the_head(tmp_path):
     v = catalog.beck().model_copy(update={"units": "SI"})
-    assert "x [m],mass_per_length [kg/m],bending_stiffness [N*m^2]\n" in stations_text(v)
+    assert "x [m],mass_per_length [kg/m],bending_stiffness [N*m^2]\n" in csv_text(station_rows(v))
 
 
 @pytest.mark.parametrize(

@@ -15,14 +15,13 @@ from beal.interop.bulk import understood
 from beal.interop.cards import Deck, read_deck
 from beal.interop.joined import joined
 from beal.interop.stick import described
-from beal.interop.structure import Remark, grouped, listed
+from beal.interop.structure import listed, shown
 from beal.interop.view import viewed
 from beal.units import to_si
 from beal.vehicle.file import vehicle_from
 from beal.vehicle.vehicle import Vehicle
 
 PLANES = ("xy", "xz", "yx", "yz", "zx", "zy")
-FEW, MANY = 20, 200  # problems of one deck that are told one by one; kinds of problems that are told
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,7 @@ def read_nastran(
             data = described(line, found, lumps == "spread", by_comments=bool(deck.kept))
     kept = _kept(deck, found.problems)
     if found.problems or view is None:
-        raise ModelError(_shown(found.problems), source)
+        raise ModelError(shown(found.problems), source)
     end = "highest" if nose == "high" else "lowest"
     notes = [("", f"the nose is at the {end} {'xyz'[view.axis]}, bending in the plane {view.plane}")]
     if kept.get("units") != "nondimensional":
@@ -110,14 +109,6 @@ def read_nastran(
     title = "" if deck.kept else Path(path).stem
     vehicle = vehicle_from({"title": title, **_merged(kept, data, source)}, source)
     return Imported(vehicle, listed(notes + found.notes), listed(found.ignored))
-
-
-def _shown(problems: list[Remark]) -> list[Remark]:
-    """All problems where they are few, else one of each kind."""
-    if len(problems) <= FEW:
-        return problems
-    kinds = grouped(problems)
-    return kinds[:MANY] + ([("", f"and {len(kinds) - MANY} more kinds of problems")] if len(kinds) > MANY else [])
 
 
 def _scales(length_unit: str, force_unit: str, problems: list[tuple[str, str]]) -> tuple[float, float]:

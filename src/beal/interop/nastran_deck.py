@@ -4,15 +4,14 @@ import math
 from collections.abc import Iterator
 from itertools import count, groupby
 
-import numpy as np
-
 from beal.errors import ModelError
 from beal.interop.cards import KEPT
 from beal.interop.mesh import VARYING, meshed
 from beal.interop.pieces import titled
+from beal.interop.tables import between
 from beal.vehicle.file import dumps_rest
 from beal.vehicle.parts import Joint, Stage
-from beal.vehicle.stations import Property, StationTable, mean
+from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 OUT_OF_PLANE = "1345"  # held everywhere: a vehicle bends in the plane xy
@@ -141,7 +140,7 @@ def _tapered(stage: Stage, ends: list[Ends], x: list[float], properties: Iterato
     for element, fore, aft in ends:
         number = next(properties)
         mass, stiffness = (
-            _between(getattr(stage, name), x[fore - 1], x[aft - 1]) for name in ("mass_per_length", "bending_stiffness")
+            between(getattr(stage, name), x[fore - 1], x[aft - 1]) for name in ("mass_per_length", "bending_stiffness")
         )
         sections: list[list[Field]] = [[1.0, k, k, None, None, m] for m, k in zip(mass, stiffness, strict=True)]
         no_points: list[Field] = [None] * 8
@@ -150,16 +149,6 @@ def _tapered(stage: Stage, ends: list[Ends], x: list[float], properties: Iterato
         if element == ends[0][0]:
             yield f"$ {_comment(stage.name)}"
         yield f"CBEAM,{element},{number},{fore},{aft},0.,1.,0."
-
-
-def _between(given: Property, front: float, back: float) -> tuple[float, float]:
-    """A property just behind one station and just before the next, between which it is linear."""
-    if not isinstance(given, StationTable):
-        return given, given
-    x, value = given.arrays.x, given.arrays.value
-    after = int(np.searchsorted(x, (front + back) / 2))
-    there = np.interp((front, back), x[after - 1 : after + 1], value[after - 1 : after + 1])
-    return float(there[0]), float(there[1])
 
 
 def _springs(joint: Joint, forward: int, aft: int, numbers: Iterator[int]) -> Iterator[str]:

@@ -7,6 +7,7 @@ from beal.interop.sections import Section
 
 Vector = tuple[float, float, float]
 Remark = tuple[str, str]  # where, and what
+FEW, MANY = 20, 200  # problems that are told one by one; kinds of problems that are told
 GROUND = 0  # the number of no grid
 
 
@@ -119,3 +120,11 @@ def grouped(remarks: list[Remark]) -> list[Remark]:
 def listed(remarks: list[Remark]) -> tuple[str, ...]:
     """Remarks as lines."""
     return tuple(f"{where}: {message}" if where else message for where, message in grouped(remarks))
+
+
+def shown(problems: list[Remark]) -> list[Remark]:
+    """All problems where they are few, else one of each kind."""
+    if len(problems) <= FEW:
+        return problems
+    kinds = grouped(problems)
+    return kinds[:MANY] + ([("", f"and {len(kinds) - MANY} more kinds of problems")] if len(kinds) > MANY else [])

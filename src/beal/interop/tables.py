@@ -1,7 +1,11 @@
-"""Rows of stations as a property of a stage: a number, or a table of no more stations than it needs."""
+"""Properties along a stage as rows of stations, and back."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
+
+import numpy as np
+
+from beal.vehicle.stations import Property, StationTable
 
 STRAIGHT = 1e-12  # of the largest value: a station that is off the line between others by no more is left out
 Point = tuple[float, float]
@@ -62,3 +66,29 @@ def _bends(points: list[Point], near: float) -> Iterator[Point]:
         low, high = max(low, (point[1] - near - value) / run), min(high, (point[1] + near - value) / run)
     if len(points) > 1:
         yield points[-1]
+
+
+def between(given: Property, front: float, back: float) -> tuple[float, float]:
+    """A property just behind one station and just before the next, between which it is linear.
+
+    Parameters
+    ----------
+    given : float or StationTable
+    front, back : float
+        From the front of the stage.
+
+    Returns
+    -------
+    tuple of float
+
+    Examples
+    --------
+    >>> between(StationTable(x=[0.0, 1.0, 1.0, 3.0], value=[1.0, 2.0, 5.0, 7.0]), 1.0, 2.0)
+    (5.0, 6.0)
+    """
+    if not isinstance(given, StationTable):
+        return given, given
+    x, value = given.arrays.x, given.arrays.value
+    after = int(np.searchsorted(x, (front + back) / 2))
+    there = np.interp((front, back), x[after - 1 : after + 1], value[after - 1 : after + 1])
+    return float(there[0]), float(there[1])
