@@ -49,8 +49,10 @@ def understood(deck: Deck) -> Structure:
                 _PARAMETERS[card.text(1).upper()](found, card)
             elif SETTINGS.fullmatch(card.name):
                 left[card.name] = left.get(card.name, 0) + 1
-            elif card.name not in DEFAULTS or defaults.setdefault(card.name, card) is not card:
+            elif card.name not in DEFAULTS:
                 _refuse(found, card)
+            elif defaults.setdefault(card.name, card) is not card:
+                raise FieldError("may come once")
         except FieldError as error:
             found.problems.append((card.where, str(error)))
     constrain(found, deck.selected)

@@ -4,6 +4,8 @@ import csv
 import io
 import os
 import tomllib
+import zipfile
+import zlib
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -11,7 +13,12 @@ from beal.errors import ModelError
 from beal.vehicle.file import LARGEST_FILE, read_bytes
 
 KEPT = "# beal:"  # opens a row that carries what columns cannot say
-MOST_CELLS = 1_000_000  # of a spreadsheet, which is packed
+MOST_CELLS, MOST_BYTES = 1_000_000, 100_000_000  # of a spreadsheet, which is packed
+# What zipfile, its decompressors and openpyxl raise on a file that is damaged, encrypted or no spreadsheet.
+UNREADABLE = (
+    *(zipfile.BadZipFile, zlib.error, EOFError, OSError, RuntimeError),
+    *(AttributeError, IndexError, KeyError, SyntaxError, TypeError, ValueError),
+)
 Cell = str | float
 Rows = list[tuple[int, list[str]]]
 
@@ -67,23 +74,31 @@ def _csv(path: str | os.PathLike[str], source: str) -> Iterator[list[str]]:
 
 
 def _sheet(path: str | os.PathLike[str], source: str) -> Iterator[list[str]]:
-    content = read_bytes(path, LARGEST_FILE, "a spreadsheet")
+    content = io.BytesIO(read_bytes(path, LARGEST_FILE, "a spreadsheet"))
     try:
         import openpyxl  # only spreadsheets need it
     except ImportError:
         raise ModelError("needs openpyxl: install beal[io], or give the table as CSV", source) from None
-    from zipfile import BadZipFile
-
     left = MOST_CELLS
     try:
-        sheet = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True).worksheets[0]
+        _check_archive(content)
+        sheet = openpyxl.load_workbook(content, read_only=True, data_only=True).worksheets[0]
         for row in sheet.iter_rows(values_only=True):
             left -= len(row)
             if left < 0:
-                raise ModelError(f"has more than {MOST_CELLS} cells", source)
+                raise ValueError(f"it has more than {MOST_CELLS} cells")
             yield ["" if cell is None else str(cell) for cell in row]
-    except (BadZipFile, KeyError, ValueError, IndexError) as error:
+    except UNREADABLE as error:
         raise ModelError(f"is not a spreadsheet: {error}", source) from None
+
+
+def _check_archive(content: io.BytesIO) -> None:
+    """Read all of a packed file once, whose damage openpyxl meets in many ways."""
+    with zipfile.ZipFile(content) as archive:
+        if sum(part.file_size for part in archive.infolist()) > MOST_BYTES:
+            raise ValueError(f"it is larger than {MOST_BYTES // 10**6} MB when unpacked")
+        if damaged := archive.testzip():
+            raise ValueError(f"its part {damaged} is damaged")
 
 
 def csv_text(rows: Iterable[list[Cell]]) -> str:
