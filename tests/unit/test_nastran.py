@@ -294,7 +294,10 @@ REFUSED = {
     "a rigid bar": (DECK + "RBE3,60,,1,123456\n", ["RBE3 60", "is not read"]),
     "a tie along the stick": (DECK + "RBE2,60,1,123456,3\n", ["RBE2 60", "ties grids 1 and 3"]),
     "a spring to ground inside": (DECK + "CELAS2,60,5.,2,2\n", ["CELAS2 60", "stands on the ground"]),
-    "turned axes": (DECK + "CORD2R,5,,0.,0.,0.,1.,0.,0.,+\n+,0.,1.,0.\n", ["CORD2R 5", "basic axes"]),
+    "turned axes": (
+        DECK.replace("GRID,2,", "GRID,2,5") + "CORD2R,5,,0.,0.,0.,1.,0.,0.,+\n+,0.,1.,0.\n",
+        ["GRID 2", "uses the coordinate system 5", "basic axes"],
+    ),
     "a held grid inside": (DECK + "SPC1,1,2,2\n", ["GRID 2", "only the ends"]),
     "a bad number": (DECK.replace("2.,0.,0.", "2x,0.,0."), ["line 2, GRID 2", "field 4", "'2x'"]),
     "a number too large": (DECK.replace("2.,0.,0.", "2.+999,0.,0."), ["GRID 2", "must be a number"]),

@@ -75,6 +75,11 @@ def test_a_property_may_be_repeated_word_for_word(read):
     assert read(DECK.replace("ENDDATA", "PBAR,1,1,2.,3.,3.,,.5\nENDDATA")).vehicle == read(DECK).vehicle
 
 
+def test_coordinate_systems_that_nothing_uses_have_no_influence(read):
+    found = read(DECK.replace("ENDDATA", "CORD2C,1,,0.,0.,0.,0.,0.,1.,+C\n+C,1.,0.,1.\nENDDATA"))
+    assert "no part of a vehicle, left out: CORD2C (1)" in found.notes
+
+
 def test_equal_remarks_are_told_once(read):
     ignored = read(DECK.replace("ENDDATA", "FOO,1\nFOO,2\nBAR,3\nENDDATA")).ignored
     assert ignored == (
@@ -114,7 +119,7 @@ def test_a_deck_without_an_end_is_said_to_be_one(read):
 def test_blank_fields_take_the_defaults_of_the_deck(read, refusal, default, text):
     v = read(f"{text}{default}\n").vehicle
     assert v.stages == read(CARDS).vehicle.stages
-    assert v.support.tail == ("clamped" if default.startswith("GRDSET") else "free")
+    assert (v.support.nose, v.support.tail) == ("free", "clamped" if default.startswith("GRDSET") else "free")
     assert "may come once" in refusal(f"{text}{default}\n{default}\n")
 
 

@@ -7,11 +7,11 @@ from beal.interop.cards import Card, Deck, FieldError
 from beal.interop.constraints import components, constrain, read_constraint, read_union
 from beal.interop.sections import section
 from beal.interop.springs import read_cbush, read_celas2, read_rbar, read_rbe2
-from beal.interop.structure import Bar, Mass, Material, Structure
+from beal.interop.structure import Bar, Mass, Material, Structure, check_frame
 
 SETTINGS = re.compile(  # of analyses, loads and plots: no part of a vehicle
     "PARAM|EIG(RL|R|B|C)|FREQ[1-5]?|TSTEP|TABDMP1|TABLED1|[DRT]LOAD[12]?|DAREA|FORCE|MOMENT|LOAD|GRAV|PLOAD1|SUPORT1?|SPOINT"
-    "|SET[13]?|ASET1?|OMIT1?|ECHO(ON|OFF)|PLOTEL"
+    "|SET[13]?|ASET1?|OMIT1?|ECHO(ON|OFF)|PLOTEL|CORD[123][RCS]"
 )
 COUPLING = re.compile("RBE[13]|RBAR1|RROD|RTRPLT|MPC(ADD)?|SPCD|GENEL|DMIG|C.*")
 READ = "CBAR, CBEAM, CONM2, CBUSH, CELAS2, RBE2 and RBAR"
@@ -91,9 +91,7 @@ def _is_repeated(seen: dict[tuple[str, int], Card], card: Card) -> bool:
 
 def _refuse(found: Structure, card: Card) -> None:
     """Unknown cards: what may add stiffness, mass or coupling cannot be left out."""
-    if card.name.startswith("CORD"):
-        found.problems.append((card.where, "only CORD2R along the basic axes is read: give the grids in basic axes"))
-    elif COUPLING.fullmatch(card.name):
+    if COUPLING.fullmatch(card.name):
         found.problems.append((card.where, f"is not read: a stick has {READ} only"))
     else:
         found.ignored.append((card.where, f"{card.name} is unknown, left out"))
@@ -112,23 +110,16 @@ def _structural_damping(found: Structure, card: Card) -> None:
 
 
 def _cord2r(found: Structure, card: Card) -> None:
-    """The basic system under another number."""
+    """The basic system under another number; others are refused where they are used."""
     a, b, c = (tuple(card.real(first + n, 0.0) for n in range(3)) for first in (3, 6, 9))
     along = card.integer(2, 0) == 0 and not any(a) and b[:2] == (0.0, 0.0) and b[2] > 0
-    if not along or c[0] <= 0 or c[1] != 0:
-        raise FieldError("turns or moves the axes: give the grids in basic axes")
-    found.frames.add(card.integer(1))
-
-
-def _frame(found: Structure, card: Card, number: int) -> None:
-    """Refuse a coordinate system whose axes are not the basic ones."""
-    if card.integer(number, 0) not in (0, *found.frames):
-        raise FieldError(f"uses the coordinate system {card.text(number)}: give it in basic axes")
+    if along and c[0] > 0 and c[1] == 0:
+        found.frames.add(card.integer(1))
 
 
 def _grid(found: Structure, card: Card) -> None:
-    _frame(found, card, 2)
-    _frame(found, card, 6)
+    check_frame(found, card, 2)
+    check_frame(found, card, 6)
     found.grids[card.integer(1)] = (card.real(3, 0.0), card.real(4, 0.0), card.real(5, 0.0))
     if card.text(7):
         found.held.setdefault(card.integer(1), set()).update(components(card.text(7)))
@@ -148,7 +139,9 @@ def _bar(found: Structure, card: Card) -> None:
 
 
 def _section(found: Structure, card: Card) -> None:
-    found.sections[card.integer(1)] = section(card)
+    found.sections[card.integer(1)] = read = section(card)
+    if read.relieved:
+        found.ignored.append((card.where, "relief of shear by taper (S1, S2) is left out"))
 
 
 def _material(found: Structure, card: Card) -> None:
@@ -166,7 +159,7 @@ def _material(found: Structure, card: Card) -> None:
 
 
 def _mass(found: Structure, card: Card) -> None:
-    _frame(found, card, 3)
+    check_frame(found, card, 3)
     if any(card.real(n, 0.0) for n in (5, 6, 7)):
         raise FieldError("is offset from its grid: put a grid at its centre of mass and tie it to the bars there")
     mass, inertia = card.real(4, 0.0), (card.real(9, 0.0), card.real(11, 0.0), card.real(14, 0.0))

@@ -37,12 +37,15 @@ class Section:
         By their place between the ends, 0 and 1, in this order.
     first_shear, second_shear : float
         K1 and K2; 0 is rigid in shear.
+    relieved : bool
+        Whether its taper carries part of the shear force (S1, S2).
     """
 
     material: int
     cuts: dict[float, Cut]
     first_shear: float = 0.0
     second_shear: float = 0.0
+    relieved: bool = False
 
 
 def section(card: Card) -> Section:
@@ -110,7 +113,7 @@ def _pbeam(card: Card) -> Section:
         if not 0 < at <= 1 or at in rows:
             raise FieldError(f"its stations must lie between its ends, each once, found x/l = {at:g}")
         rows[at] = row
-        row += 8 if kind == "NO" else 16
+        row += 16 if kind == "YES" else 8  # which has recovery points of its own
     there = _values(card, rows[1.0], here) if 1.0 in rows else here
     cuts = {0.0: Cut(*here)}
     for at in sorted(rows):
@@ -118,7 +121,8 @@ def _pbeam(card: Card) -> Section:
     cuts[1.0] = Cut(*there)
     if any(card.real(row + n, 0.0) for n in range(8, 16)):
         raise FieldError("its axis of mass or neutral axis is off the line of the grids")
-    return Section(card.integer(2), cuts, card.real(row, 1.0), card.real(row + 1, 1.0))
+    relief = any(card.real(row + n, 0.0) for n in (2, 3))
+    return Section(card.integer(2), cuts, card.real(row, 1.0), card.real(row + 1, 1.0), relief)
 
 
 def _values(card: Card, row: int, blank: list[float]) -> list[float]:

@@ -4,7 +4,7 @@ import math
 
 from beal.interop.cards import Card, FieldError
 from beal.interop.constraints import components
-from beal.interop.structure import GROUND, Link, Structure
+from beal.interop.structure import GROUND, Link, Structure, check_frame
 
 ALL = {1, 2, 3, 4, 5, 6}
 
@@ -25,8 +25,7 @@ def read_cbush(found: Structure, card: Card, properties: dict[int, Card]) -> Non
         raise FieldError(f"its property PBUSH {number} is missing")
     if any(card.text(n) for n in (5, 6, 7)):
         raise FieldError("has an orientation vector: give its coordinate system as 0, the basic axes")
-    if card.integer(8, 0) not in (0, *found.frames):
-        raise FieldError(f"uses the coordinate system {card.text(8)}: give it in basic axes")
+    check_frame(found, card, 8)
     if not card.text(8):
         found.notes.append((card.where, "names no coordinate system, basic axes are taken"))
     if any(card.text(n) not in ("", "0") for n in (10, *range(12, 15))):

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from beal.interop.cards import Card
+from beal.interop.cards import Card, FieldError
 from beal.interop.sections import Section
 
 Vector = tuple[float, float, float]
@@ -98,6 +98,12 @@ class Structure:
     problems: list[Remark] = field(default_factory=list)
     notes: list[Remark] = field(default_factory=list)
     ignored: list[Remark] = field(default_factory=list)
+
+
+def check_frame(found: Structure, card: Card, number: int) -> None:
+    """Refuse a coordinate system, named in a field of a card, whose axes are not the basic ones."""
+    if card.integer(number, 0) not in (0, *found.frames):
+        raise FieldError(f"uses the coordinate system {card.text(number)}: give it in basic axes")
 
 
 def grouped(remarks: list[Remark]) -> list[Remark]:
