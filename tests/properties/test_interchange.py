@@ -101,6 +101,8 @@ def varied(v, seed):
         middles = {
             "mass_per_length": s.mass_per_length,
             "bending_stiffness": s.bending_stiffness,
+            "shear_stiffness": 10.0,
+            "rotary_inertia_per_length": 0.01,
             "foundation_stiffness": 1.0,
         }
         tables = {name: table(s.length, middle) for name, middle in middles.items() if rng.random() < 0.5}

@@ -1,8 +1,11 @@
 """Bars that vary along their length, in decks read and written."""
 
+import math
+
 import pytest
 
 from beal.errors import ModelError
+from beal.interop.cards import read_deck
 from beal.interop.files import content, imported
 from beal.vehicle.file import loads
 
@@ -54,6 +57,7 @@ def test_the_other_plane_has_its_own_taper(read):
     [
         (",NO,.5,,9.\n,NO,1.,4.,6.,8.,,,1.", (0.0, 3.0, 4.0, 5.0), (30.0, 60.0, 90.0, 30.0)),
         (",NO,.5\n,NO,1.,,6.", (0.0, 3.0, 5.0), (30.0, 60.0, 30.0)),  # a blank lies between the ends
+        (",YESA,.5,,9.\n,YESA,1.,4.,6.,8.,,,1.", (0.0, 3.0, 4.0, 5.0), (30.0, 60.0, 90.0, 30.0)),
         (",NO,.25,,9.", (0.0, 3.0, 3.0, 4.5, 5.0), (30.0, 60.0, 30.0, 90.0, 30.0)),  # a blank end B repeats end A
     ],
 )
@@ -61,6 +65,21 @@ def test_stations_between_the_ends_of_a_bar_are_stations_of_its_stage(read, row,
     text = STICK.replace(",YES,1.,4.,6.,8.,,,1.\n,,,,,,,,\n", f"{row}\n")
     table = read(text).vehicle.stages[0].bending_stiffness
     assert (table.x, table.value) == (x, stiffness)
+
+
+def test_lumps_are_spread_along_bars_without_mass_only(read):
+    tail = "GRID,4,,6.\nGRID,5,,7.\nCBAR,3,3,3,4,0.,1.,0.\nCBAR,4,3,4,5,0.,1.,0.\nPBAR,3,2,1.,1.,1.\nMAT1,2,10.,,.3\n"
+    lumps = "".join(f"CONM2,{n},{grid},,{m}\n" for n, grid, m in ((50, 3, 1.0), (51, 4, 2.0), (52, 5, 1.0)))
+    found = read(STICK + tail + lumps, lumps="spread").vehicle
+    (stage,) = found.stages
+    assert stage.mass_per_length.x == (0.0, 2.0, 2.0, 5.0, 7.0)
+    assert stage.mass_per_length.value == (2.0, 2.0, 7.25, 29.0, 14.5)
+    assert found.point_masses == ()
+
+
+def test_relief_of_shear_is_listed(read):
+    found = read(STICK.replace(",,,,,,,,\n,0.,0.\n", ",,,,,,,,\n,0.,0.,.5\n"))
+    assert found.ignored == ("line 6, PBEAM 1: relief of shear by taper (S1, S2) is left out",)
 
 
 def test_a_uniform_bar_beside_tapered_ones_is_a_level_part_of_their_table(read):
@@ -85,6 +104,54 @@ def test_a_taper_that_is_none_is_refused(read, row, expected):
         read(STICK.replace(",YES,1.,4.,6.,8.,,,1.", row))
 
 
+@pytest.mark.parametrize(
+    ("card", "plane", "shear"),
+    [
+        ("PBAR,1,1,2.,3.,4.,,.5\n", "xy", math.inf),
+        ("PBAR,1,1,2.,3.,4.,,.5\n,,,,,,,,\n,.25,.5\n", "xy", 0.25 * 2 * 10 / 2.6),
+        ("PBAR,1,1,2.,3.,4.,,.5\n,,,,,,,,\n,.25,.5\n", "xz", 0.5 * 2 * 10 / 2.6),
+        ("PBARL,1,1,,ROD\n,2.\n", "xy", math.inf),
+        ("PBEAM,1,1,2.,3.,4.,,,.5\n", "xy", 2 * 10 / 2.6),  # K1 of a PBEAM is 1 unless given
+        ("PBEAM,1,1,2.,3.,4.,,,.5\n,,,,,,,,\n,0.,0.\n", "xy", math.inf),
+    ],
+)
+def test_shear_factors_give_a_stage_its_shear_stiffness(read, card, plane, shear):
+    text = STICK[: STICK.index("CBEAM,2")] + card + "MAT1,1,10.,,.3,7.\n"
+    (stage,) = read(text.replace("CBEAM", "CBAR"), plane=plane).vehicle.stages
+    assert stage.shear_stiffness == pytest.approx(shear, rel=1e-15)
+    assert stage.rotary_inertia_per_length == 0
+
+
+def test_the_shear_modulus_may_be_given_or_follow(read):
+    card = "PBAR,1,1,2.,3.,3.,,.5\n,,,,,,,,\n,.25,.25\n"
+    text = STICK[: STICK.index("CBEAM,2")] + card
+    for material, shear in (("MAT1,1,10.,4.,,7.", 2.0), ("MAT1,1,,4.,.25,7.", 2.0), ("MAT1,1,10.,,.25,7.", 2.0)):
+        assert read(f"{text}{material}\n").vehicle.stages[0].shear_stiffness == pytest.approx(shear, rel=1e-15)
+    found = read(f"{text}MAT1,1,10.,,,7.\n")
+    assert found.vehicle.stages[0].shear_stiffness == math.inf
+    assert any("has no shear modulus or area" in note for note in found.notes)
+
+
+def test_tables_have_the_units_of_the_deck(read):
+    stage = read(STICK.replace("\n,0.,0.\n", "\n,1.,1.\n"), length_unit="mm", force_unit="kN").vehicle.stages[0]
+    assert stage.shear_stiffness.x == pytest.approx((0.0, 0.003, 0.005), rel=1e-14)
+    assert stage.mass_per_length.value == pytest.approx((7.25e9, 29e9, 14.5e9), rel=1e-14)
+    assert stage.bending_stiffness.value == pytest.approx((0.03, 0.06, 0.03), rel=1e-14)
+    assert stage.shear_stiffness.value == pytest.approx((1e4 / 2.6, 4e4 / 2.6, 2e4 / 2.6), rel=1e-14)
+
+
+def test_bars_that_shear_and_bars_that_do_not_are_two_stages(read):
+    rigid, flexible = read(STICK.replace(",,,1.\n,,,,,,,,\n,0.,0.", ",,,1.\n,,,,,,,,\n,1.,1.")).vehicle.stages
+    assert rigid.shear_stiffness == math.inf
+    assert flexible.shear_stiffness.value == pytest.approx((40 / 2.6, 20 / 2.6), rel=1e-15)
+
+
+def test_a_rigid_stage_is_not_written_to_a_deck():
+    v = loads("[[stage]]\nlength = 1.0\nmass_per_length = 1.0\nbending_stiffness = inf\nshear_stiffness = 2.0")
+    with pytest.raises(ModelError, match=r"stage\[0\].bending_stiffness: is infinite"):
+        content(v, "vehicle.bdf")
+
+
 VARYING = """
 [[stage]]
 name = "first"
@@ -101,6 +168,15 @@ foundation_stiffness = {x = [0.0, 1.1], value = [0.0, 1.0]}
 length = 1.0
 mass_per_length = 1.0
 bending_stiffness = 2.0
+shear_stiffness = 0.3
+rotary_inertia_per_length = 0.1
+[[stage]]
+length = 1.0
+mass_per_length = 1.0
+bending_stiffness = 2.0
+shear_stiffness = {x = [0.0, 0.4, 1.0], value = [0.3, 3.0, 1.0]}
+rotary_inertia_per_length = {x = [0.0, 1.0], value = [0.0, 1.0]}
+[[joint]]
 [[joint]]
 [[joint]]
 rotational_stiffness = 4.0
@@ -108,6 +184,14 @@ rotational_stiffness = 4.0
 station = 0.70000000000000007
 mass = 0.1
 """
+
+
+def test_tapered_sections_are_written_with_a_row_of_no_recovery_points(tmp_path):
+    path = tmp_path / "vehicle.bdf"
+    path.write_bytes(content(loads(VARYING), path, 1))
+    sections = [card for card in read_deck(path).cards if card.name == "PBEAM"]
+    assert sections
+    assert [card.fields[8:18] for card in sections] == [[""] * 8 + ["NO", "1."]] * len(sections)
 
 
 @pytest.mark.parametrize("elements", [1, 8])

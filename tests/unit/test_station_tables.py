@@ -1,5 +1,6 @@
 """Station tables: rows become stages, whatever they are called and wherever x begins."""
 
+import math
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import pytest
@@ -68,6 +69,14 @@ def test_a_foundation_has_a_column_where_it_needs_one(read):
     assert second.foundation_stiffness == 0.0
 
 
+def test_shear_and_rotary_inertia_have_columns(read):
+    head = "x,mass_per_length,bending_stiffness,kGA,rotary_inertia_per_length\n"
+    text = head + "0,2,30,5,\n1,2,30,7,\n1,2,30,,3\n2,2,30,,3\n"
+    first, second = read(text, columns={"shear_stiffness": "kGA"}).vehicle.stages
+    assert (first.shear_stiffness.value, first.rotary_inertia_per_length) == ((5.0, 7.0), 0.0)
+    assert (second.shear_stiffness, second.rotary_inertia_per_length) == (math.inf, 3.0)
+
+
 def test_rows_with_both_ends_are_joined_where_they_are_equal(stages_of):
     text = "x_start,x_end,mass_per_length,bending_stiffness\n0,1,2,30\n1,2,4,30\n2,3,4,30\n"
     assert stages_of(text) == [(1.0, 2.0, 30.0), (2.0, 4.0, 30.0)]
@@ -84,10 +93,10 @@ def test_units_stand_in_brackets(stages_of):
 
 
 def test_columns_may_have_names_of_their_own_and_others_are_listed(read):
-    text = POINTS.replace("bending_stiffness", "EI").replace("\n", ",7\n").replace("EI,7", "EI,kGA")
+    text = POINTS.replace("bending_stiffness", "EI").replace("\n", ",7\n").replace("EI,7", "EI,colour")
     found = read(text, columns={"bending_stiffness": "EI"})
     assert found.vehicle.stages[0].bending_stiffness == 30.0
-    assert found.ignored == ("columns without a place in a stage, left out: kGA",)
+    assert found.ignored == ("columns without a place in a stage, left out: colour",)
 
 
 VARYING = """
@@ -102,8 +111,15 @@ length = 1.1
 mass_per_length = 1.0
 bending_stiffness = {x = [0.0, 0.5, 1.1], value = [1.0, 2.0, 1.0]}
 internal_damping = 0.01
+shear_stiffness = 2.5
+[[stage]]
+length = 1.0
+mass_per_length = 0.0
+bending_stiffness = inf
+rotary_inertia_per_length = {x = [0.0, 1.0], value = [0.0, 1.0]}
 [[joint]]
 rotational_stiffness = 4.0
+[[joint]]
 """
 
 
@@ -151,7 +167,8 @@ def test_quantities_carry_their_units_in_the_head(tmp_path):
         (POINTS.replace("x,", "x,x,"), ["row 1", "names 'x' twice"]),
         (POINTS.replace("x,", "x [kg],"), ["x [kg]", "converts to m"]),
         (POINTS.replace("0,2,30\n1,2,30", "0,-2,30\n1,-2,30"), ["row 2, mass_per_length", "-2"]),
-        (POINTS.replace("0,2,30\n1,2,30", "0,0,30\n1,0,30"), ["stage[0].mass_per_length", "greater than 0"]),
+        (POINTS.replace("0,2,30\n1,2,30", "0,0,30\n1,0,30"), ["stage[0].mass_per_length", "must be positive"]),
+        (POINTS.replace("0,2,30", "0,inf,30"), ["row 2, mass_per_length", "must be a number"]),
         ("# beal: x_from = 'top'\n" + POINTS, ["x_from", "nose or tail"]),
         ("# beal: [[joint\n" + POINTS, ["not valid TOML"]),
         ("# beal: [[stage]]\n# beal: name = 'a'\n" + POINTS, ["must be a list of 2 tables"]),

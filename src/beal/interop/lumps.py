@@ -1,5 +1,6 @@
 """Where the mass of a stick sits: along its bars, on its grids, or on grids but meant along the bars."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from statistics import median
@@ -22,8 +23,8 @@ class Piece:
         What messages call it.
     x : tuple of float
         Stations from the nose, from end to end; what follows is linear in between.
-    mass, stiffness : tuple of float
-        Per length, and in bending.
+    mass, stiffness, shear : tuple of float
+        Mass per length, stiffness in bending, and in shear, infinite where it is rigid in shear.
     fore, aft : int
         Grids at the ends.
     group : int
@@ -38,6 +39,7 @@ class Piece:
     x: tuple[float, ...]
     mass: tuple[float, ...]
     stiffness: tuple[float, ...]
+    shear: tuple[float, ...]
     fore: int
     aft: int
     group: int
@@ -68,7 +70,7 @@ class Piece:
     @property
     def tapered(self) -> bool:
         """Whether anything varies along it."""
-        return len(set(self.mass)) > 1 or len(set(self.stiffness)) > 1
+        return any(len(set(values)) > 1 for values in (self.mass, self.stiffness, self.shear))
 
     def weighing(self, mass: float, alone: bool = False) -> "Piece":
         """The piece with another mass per length."""
@@ -78,8 +80,10 @@ class Piece:
         """Whether it and the piece before are one stage: equal and uniform, or linear in places."""
         if self.group != before.group or self.alone or before.alone or any(self.mass) != any(before.mass):
             return False
-        alike = (self.mass[0], self.stiffness[0]) == (before.mass[0], before.stiffness[0])
-        return alike or self.tapered or before.tapered
+        if math.isinf(self.shear[0]) != math.isinf(before.shear[0]):
+            return False
+        here, there = ((piece.mass[0], piece.stiffness[0], piece.shear[0]) for piece in (self, before))
+        return here == there or self.tapered or before.tapered
 
 
 def weighted(

@@ -8,7 +8,7 @@ from beal.interop.view import SAME_PLACE
 from beal.vehicle.parts import Joint
 from beal.vehicle.vehicle import Vehicle
 
-VARYING = ("mass_per_length", "bending_stiffness")  # what sections say of a stage
+VARYING = ("mass_per_length", "bending_stiffness", "shear_stiffness")  # what sections say of a stage
 APART = 10 * SAME_PLACE  # of the length: grids of one stage
 
 

@@ -125,24 +125,28 @@ def _scales(length_unit: str, force_unit: str, problems: list[tuple[str, str]]) 
 
 def _scale(data: dict[str, Any], length: float, force: float) -> None:
     """Quantities into SI units, in place."""
+    moment, spring = force * length, force / length
     factors = {
-        "length": length,
-        "station": length,
-        "mass_per_length": force / length**2,
-        "bending_stiffness": force * length**2,
-        "mass": force / length,
-        "rotary_inertia": force * length,
-        "rotational_stiffness": force * length,
-        "shear_stiffness": force / length,
-        "rotational_damping": force * length,
-        "shear_damping": force / length,
-        "translation": force / length,
-        "rotation": force * length,
+        "stage": {
+            "length": length,
+            "mass_per_length": force / length**2,
+            "bending_stiffness": force * length**2,
+            "shear_stiffness": force,
+        },
+        "joint": {
+            "rotational_stiffness": moment,
+            "shear_stiffness": spring,
+            "rotational_damping": moment,
+            "shear_damping": spring,
+        },
+        "point_mass": {"station": length, "mass": spring, "rotary_inertia": moment},
+        "support": {"translation": spring, "rotation": moment},
     }
-    ends = [end for end in data["support"].values() if isinstance(end, dict)]
-    for part in (*data["stage"], *data["joint"], *data["point_mass"], *ends):
-        for key in factors.keys() & part.keys():
-            part[key] = _scaled(part[key], factors[key], length)
+    parts = {**data, "support": [end for end in data["support"].values() if isinstance(end, dict)]}
+    for kind, by_key in factors.items():
+        for part in parts[kind]:
+            for key in by_key.keys() & part.keys():
+                part[key] = _scaled(part[key], by_key[key], length)
 
 
 def _scaled(value: Any, factor: float, length: float) -> Any:

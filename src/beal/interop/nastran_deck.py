@@ -48,7 +48,7 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     Raises
     ------
     ModelError
-        If the number of elements is not positive.
+        If the number of elements is not positive, or a stage is rigid.
 
     Examples
     --------
@@ -70,6 +70,7 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     """
     if elements < 1:
         raise ModelError([("elements", f"must be at least 1, found {elements}")])
+    _check(vehicle)
     named = {
         kind: all(_is_title(part.name) for part in parts)
         for kind, parts in (("stage", vehicle.stages), ("joint", vehicle.joints), ("point_mass", vehicle.point_masses))
@@ -86,6 +87,14 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     ]
     rest = [f"$ {KEPT} {line}" for line in (dumps_rest(vehicle, said) or "\n").splitlines()]
     return "\n".join([head[0], *rest, *head[1:], *cards, "ENDDATA", ""])
+
+
+def _check(vehicle: Vehicle) -> None:
+    """Refuse what no bar can be."""
+    message = "is infinite, which no section of a bar can be; keep it in TOML"
+    stages = enumerate(vehicle.stages)
+    if rigid := [f"stage[{n}].bending_stiffness" for n, stage in stages if math.isinf(mean(stage.bending_stiffness))]:
+        raise ModelError([(path, message) for path in rigid])
 
 
 def _bulk(vehicle: Vehicle, elements: int) -> Iterator[str]:
@@ -128,8 +137,10 @@ def _end(stiffness: tuple[float, float], grid: int, numbers: Iterator[int]) -> I
 
 def _uniform(stage: Stage, ends: list[Ends], number: int) -> Iterator[str]:
     """Bars of one section."""
-    stiffness = mean(stage.bending_stiffness)
-    yield from _large("PBAR", number, 1, 1.0, stiffness, stiffness, None, mean(stage.mass_per_length))
+    stiffness, shear = mean(stage.bending_stiffness), mean(stage.shear_stiffness)
+    factors: list[Field] = [*[None] * 9, 1.0, 1.0] if shear < math.inf else []
+    mass = mean(stage.mass_per_length)
+    yield from _large("PBAR", number, 1, _area(shear), stiffness, stiffness, None, mass, *factors)
     yield f"$ {_comment(stage.name)}"
     for element, fore, aft in ends:
         yield f"CBAR,{element},{number},{fore},{aft},0.,1.,0."
@@ -139,16 +150,19 @@ def _tapered(stage: Stage, ends: list[Ends], x: list[float], properties: Iterato
     """Bars that each have a section of their own at either end, x counting from the front of the stage."""
     for element, fore, aft in ends:
         number = next(properties)
-        mass, stiffness = (
-            between(getattr(stage, name), x[fore - 1], x[aft - 1]) for name in ("mass_per_length", "bending_stiffness")
-        )
-        sections: list[list[Field]] = [[1.0, k, k, None, None, m] for m, k in zip(mass, stiffness, strict=True)]
+        values = [between(getattr(stage, name), x[fore - 1], x[aft - 1]) for name in VARYING]
+        sections: list[list[Field]] = [[_area(s), k, k, None, None, m] for m, k, s in zip(*values, strict=True)]
         no_points: list[Field] = [None] * 8
-        shear = (0.0, 0.0)  # rigid
-        yield from _large("PBEAM", number, 1, *sections[0], *no_points, "NO", 1.0, *sections[1], *shear)
+        factor = 0.0 if math.isinf(values[2][0]) else 1.0
+        yield from _large("PBEAM", number, 1, *sections[0], *no_points, "NO", 1.0, *sections[1], factor, factor)
         if element == ends[0][0]:
             yield f"$ {_comment(stage.name)}"
         yield f"CBEAM,{element},{number},{fore},{aft},0.,1.,0."
+
+
+def _area(shear_stiffness: float) -> float:
+    """The area whose shear stiffness K G A is the stage's, K being 1 and G half of E; any where it is rigid."""
+    return 2 * shear_stiffness if shear_stiffness < math.inf else 1.0
 
 
 def _springs(joint: Joint, forward: int, aft: int, numbers: Iterator[int]) -> Iterator[str]:

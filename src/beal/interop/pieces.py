@@ -50,8 +50,9 @@ def pieces_of(found: Structure, view: View) -> Iterator[Piece]:
         if not _round(section):
             note = f"is not equally stiff in both planes: the plane {view.plane} is taken"
             found.notes.append((bar.card.where, note))
-        if section.first_shear or section.second_shear:
-            found.ignored.append((bar.card.where, "is flexible in shear (K1, K2): taken as an Euler-Bernoulli beam"))
+        if math.isinf(piece.shear[0]) and (section.first_shear or section.second_shear):
+            note = "has no shear modulus or area that K1 and K2 could multiply: it is rigid in shear"
+            found.notes.append((bar.card.where, note))
         yield piece
 
 
@@ -59,19 +60,21 @@ def _piece(
     found: Structure, bar: Bar, section: Section, material: Material, ends: list[float], group: int, plane: int
 ) -> Piece:
     a, b = ends
+    factor = section.first_shear if plane == 1 else section.second_shear
     rows = [
         (
             b if at == 1 else a + at * (b - a),
             found.mass_factor * (material.density * cut.area + cut.added_mass),
             material.elasticity * (cut.first if plane == 1 else cut.second),
+            factor * material.shear * cut.area or math.inf,
         )
         for at, cut in section.cuts.items()
     ]
     grids = bar.ends
     if b < a:
         rows, grids = rows[::-1], grids[::-1]
-    x, mass, stiffness = (tuple(column) for column in zip(*rows, strict=True))
-    return Piece(bar.card.where, x, mass, stiffness, *grids, group, titled(bar.card.comment or ""))
+    x, mass, stiffness, shear = (tuple(column) for column in zip(*rows, strict=True))
+    return Piece(bar.card.where, x, mass, stiffness, shear, *grids, group, titled(bar.card.comment or ""))
 
 
 def _misfit(found: Structure, bar: Bar, section: Section, view: View) -> str:
@@ -117,6 +120,8 @@ def _unusable(piece: Piece, view: View) -> str:
         return f"its mass per length must be finite and not negative, found {mass:g}"
     if mass == 0 and any(piece.mass):
         return "its mass per length must be positive all along, or nowhere, found 0 at one place"
+    if min(piece.shear) <= 0 or len({math.isinf(value) for value in piece.shear}) > 1:
+        return f"its stiffness in shear must be positive all along, or nowhere finite, found {min(piece.shear):g}"
     if any(b <= a for a, b in zip(piece.x, piece.x[1:], strict=False)):
         return "its stations are too close together"
     return ""

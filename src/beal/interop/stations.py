@@ -22,8 +22,16 @@ from beal.interop.tables import along
 from beal.units import to_si
 from beal.vehicle.file import vehicle_from
 
-PROPERTIES = {"mass_per_length": "kg/m", "bending_stiffness": "N*m^2", "foundation_stiffness": "N/m^2"}
-OPTIONAL = {"foundation_stiffness": 0.0}  # and what a blank stands for
+PROPERTIES = {
+    "mass_per_length": "kg/m",
+    "bending_stiffness": "N*m^2",
+    "shear_stiffness": "N",
+    "rotary_inertia_per_length": "kg*m",
+    "foundation_stiffness": "N/m^2",
+}
+# What a blank stands for; the others must be given.
+OPTIONAL = {"shear_stiffness": math.inf, "rotary_inertia_per_length": 0.0, "foundation_stiffness": 0.0}
+STIFF = ("bending_stiffness", "shear_stiffness")  # may be inf, rigid
 REQUIRED = PROPERTIES.keys() - OPTIONAL.keys()
 UNITS = {"x": "m", "x_start": "m", "x_end": "m", **PROPERTIES}
 LABEL = "stage"
@@ -128,7 +136,7 @@ def _table(rows: Rows, names: Mapping[str, str], plain: bool, problems: list[Rem
         found = {}
         for key, place in there.items():
             where = f"row {number}, {bare[place]}"
-            found[key] = factors[key] * _number(cells[place], where, OPTIONAL.get(key), problems)
+            found[key] = factors[key] * _number(cells[place], where, key, problems)
             if key in PROPERTIES and found[key] < 0:
                 problems.append((where, f"must not be negative, found {cells[place][:20]}"))
         values = {key: value for key, value in found.items() if key in PROPERTIES}
@@ -150,15 +158,15 @@ def _factor(title: str, wanted: str, plain: bool, problems: list[Remark]) -> flo
         return 1.0
 
 
-def _number(text: str, place: str, blank: float | None, problems: list[Remark]) -> float:
-    """A finite number; a blank cell is the default of what has one."""
-    if not text and blank is not None:
-        return blank
+def _number(text: str, place: str, key: str, problems: list[Remark]) -> float:
+    """A number, finite unless it is a stiffness; a blank cell is the default of what has one."""
+    if not text and key in OPTIONAL:
+        return OPTIONAL[key]
     try:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not math.isfinite(value):
+    if not math.isfinite(value) and not (key in STIFF and value == math.inf):
         problems.append((place, f"must be a number, found {text[:20]!r}"))
     return value
 

@@ -1,5 +1,6 @@
 """A vehicle as the rows of a station table, which reads back to the same vehicle."""
 
+import math
 from collections.abc import Iterator
 
 from beal.interop.cells import KEPT, Cell
@@ -55,8 +56,13 @@ def _body(stage: Stage, names: list[str], start: float, end: float) -> Iterator[
     before: list[Cell] = []
     for front, back in zip(stations, [*stations[1:], stage.length], strict=True):
         ends = [between(getattr(stage, name), front, back) for name in names]
-        ahead: list[Cell] = [start + front, *(values[0] for values in ends)]
+        ahead: list[Cell] = [start + front, *(_cell(values[0]) for values in ends)]
         if ahead != before:
             yield ahead
-        before = [end if back == stage.length else start + back, *(values[1] for values in ends)]
+        before = [end if back == stage.length else start + back, *(_cell(values[1]) for values in ends)]
         yield before
+
+
+def _cell(value: float) -> Cell:
+    """Spreadsheets have no infinite numbers."""
+    return value if value < math.inf else "inf"

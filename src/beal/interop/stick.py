@@ -81,4 +81,5 @@ def _stage(run: list[Piece]) -> dict[str, Any]:
         "length": x[-1] - x[0],
         "mass_per_length": along(x, [value for piece in run for value in piece.mass]),
         "bending_stiffness": along(x, [value for piece in run for value in piece.stiffness]),
+        "shear_stiffness": along(x, [value for piece in run for value in piece.shear]),
     }
