@@ -411,6 +411,10 @@ def test_comments_that_do_not_fit_the_cards_are_refused(refusal):
     assert "thrust.colour" in refusal("$ beal: [thrust]\n$ beal: colour = 1\n" + DECK)
 
 
+def test_a_nondimensional_deck_takes_no_units(refusal):
+    assert "do not suit a deck that says it is nondimensional" in refusal(nastran_text(catalog.beck()), force_unit="kN")
+
+
 def test_a_deck_without_bars_is_not_written():
     with pytest.raises(ModelError, match="elements: must be at least 1"):
         nastran_text(catalog.beck(), elements=0)

@@ -99,6 +99,7 @@ def test_columns_may_have_names_of_their_own_and_others_are_listed(read):
     assert found.ignored == ("columns without a place in a stage, left out: colour",)
 
 
+TAPER = "x = [0.0, 0.5, 2.0], value = [1.0, 2.0, 4.0]"
 VARYING = """
 [[stage]]
 name = "first"
@@ -121,6 +122,17 @@ rotary_inertia_per_length = {x = [0.0, 1.0], value = [0.0, 1.0]}
 rotational_stiffness = 4.0
 [[joint]]
 """
+
+
+def test_a_table_without_steps_has_a_row_for_each_station():
+    v = loads(
+        VARYING[: VARYING.index("[[stage]]", 9)].replace(
+            "x = [0.0, 0.7, 0.7, 2.0], value = [1.0, 2.0, 3.0, 4.0]", TAPER
+        )
+    )
+    head, *rows = station_rows(v)[-4:]
+    assert head[-1] == "foundation_stiffness [N/m^2]"
+    assert rows == [[0.0, 1.0, 3.0, 0.0], [0.5, 2.0, 3.0, 0.25], [2.0, 4.0, 3.0, 1.0]]
 
 
 @pytest.mark.parametrize("ending", ["csv", "xlsx"])

@@ -99,6 +99,8 @@ def read_nastran(
         if not found.problems:
             data = described(line, found, lumps == "spread", by_comments=bool(deck.kept))
     kept = _kept(deck, found.problems)
+    if kept.get("units") == "nondimensional" and (length_unit, force_unit) != ("m", "N"):
+        found.problems.append(("length_unit, force_unit", "do not suit a deck that says it is nondimensional"))
     if found.problems or view is None:
         raise ModelError(shown(found.problems), source)
     end = "highest" if nose == "high" else "lowest"
