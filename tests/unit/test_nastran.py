@@ -126,6 +126,12 @@ def test_a_file_that_cannot_be_included_is_refused(refusal, name):
     assert refusal(f"{DECK}INCLUDE '{name}'\n")
 
 
+def test_files_that_are_too_large_together_are_refused(refusal, tmp_path):
+    (tmp_path / "half.bdf").write_text("$ nothing\n" * 300_000)
+    message = refusal(DECK + "INCLUDE 'half.bdf'\nINCLUDE 'half.bdf'\n")
+    assert "half.bdf: is larger than 5 MB with what was read before it" in message
+
+
 @pytest.mark.parametrize("axis", "xyz")
 def test_the_stick_may_lie_along_any_axis(vehicle_of, axis):
     turn = {"x": "{0},0.,0.", "y": "0.,{0},0.", "z": "0.,0.,{0}"}[axis]
