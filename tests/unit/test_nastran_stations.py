@@ -146,6 +146,12 @@ def test_bars_that_shear_and_bars_that_do_not_are_two_stages(read):
     assert flexible.shear_stiffness.value == pytest.approx((40 / 2.6, 20 / 2.6), rel=1e-15)
 
 
+def test_uniform_bars_that_shear_unlike_are_two_stages(read):
+    sections = "".join(f"PBAR,{n},1,2.,3.,3.,,.5\n,,,,,,,,\n,{k},{k}\n" for n, k in ((1, ".25"), (2, ".5")))
+    stages = read(f"{STICK[: STICK.index('PBEAM,1')]}{sections}MAT1,1,10.,,.25,7.\n").vehicle.stages
+    assert [stage.shear_stiffness for stage in stages] == [4.0, 2.0]
+
+
 def test_a_rigid_stage_is_not_written_to_a_deck():
     v = loads("[[stage]]\nlength = 1.0\nmass_per_length = 1.0\nbending_stiffness = inf\nshear_stiffness = 2.0")
     with pytest.raises(ModelError, match=r"stage\[0\].bending_stiffness: is infinite"):
