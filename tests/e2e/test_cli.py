@@ -16,8 +16,9 @@ import xarray
 from beal.cli.output import digits, emit, new_file, quantity
 from beal.discretisation import FORMULATIONS
 from beal.errors import ModelError
+from beal.interop.files import load
 from beal.vehicle import Thrust, catalog
-from beal.vehicle.file import load, loads
+from beal.vehicle.file import loads
 
 COMMANDS = ["check", "modes", "critical", "curve", "map", "response", "reproduce", "convert", "example"]
 HEAVY = {"numpy", "scipy", "pydantic", "xarray", "zarr", "matplotlib", "pint"}
