@@ -36,6 +36,7 @@ if _typing.TYPE_CHECKING:
         Support,
         Thrust,
     )
+    from beal.vehicle.tanks import Tank
     from beal.vehicle.vehicle import Vehicle
 
 __version__ = _version("beal")
@@ -63,6 +64,7 @@ _HOMES = {
     "Spectrum": "beal.stability.spectrum",
     "Stage": "beal.vehicle.parts",
     "Support": "beal.vehicle.parts",
+    "Tank": "beal.vehicle.tanks",
     "Thrust": "beal.vehicle.parts",
     "ThrustCurve": "beal.stability.curve",
     "Vehicle": "beal.vehicle.vehicle",
@@ -106,6 +108,7 @@ __all__ = [
     "Spectrum",
     "Stage",
     "Support",
+    "Tank",
     "Thrust",
     "ThrustCurve",
     "Vehicle",

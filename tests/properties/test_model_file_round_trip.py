@@ -67,6 +67,14 @@ signal = st.one_of(
 
 
 @st.composite
+def tank(draw, name, length):
+    ends = sorted(draw(st.lists(st.integers(0, 100), min_size=2, max_size=2, unique=True)))
+    forward, aft = (n / 100 * length for n in ends)
+    content = draw(along(aft - forward, positive))
+    return {"name": name, "forward_end": forward, "aft_end": aft, "mass_per_length": content, "fill": draw(share)}
+
+
+@st.composite
 def vehicles(draw):
     stages = draw(st.lists(stage, min_size=1, max_size=4))
     length = math.fsum(item["length"] for item in stages)
@@ -83,6 +91,7 @@ def vehicles(draw):
                 max_size=2,
             )
         ),
+        tanks=[draw(tank(name, length)) for name in draw(st.lists(text, max_size=2, unique=True))],
         support={"nose": draw(end), "tail": draw(end)},
         thrust=draw(
             st.fixed_dictionaries(

@@ -90,6 +90,7 @@ def _check(vehicle: Vehicle) -> None:
         for n, stage in enumerate(vehicle.stages)
         for name in stage.tables
     ]
+    problems += [(f"tank[{n}]", "is not written to decks; keep it in TOML") for n in range(len(vehicle.tanks))]
     for name in ("nose", "tail"):
         if not isinstance(getattr(vehicle.support, name), str):
             problems.append((f"support.{name}", "is elastic, which is not written to decks; keep it in TOML"))

@@ -20,6 +20,7 @@ from beal.vehicle.parts import (
     Thrust,
 )
 from beal.vehicle.paths import value_at, with_values
+from beal.vehicle.tanks import Tank
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "Step",
     "Support",
     "Table",
+    "Tank",
     "Thrust",
     "Vehicle",
     "catalog",

@@ -51,6 +51,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "distributed_thrusts": [part.model_dump() for part in vehicle.distributed_thrusts],
         "axial_loads": [part.model_dump() for part in vehicle.axial_loads],
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
+        "tanks": _tanks(vehicle),
         "sensors": [part.model_dump() for part in vehicle.sensors],
         "nondimensional": _groups(vehicle),
     }
@@ -71,6 +72,20 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
             "foundation_stiffness": _property(stage.foundation_stiffness),
         }
         for stage, start, end in ends
+    ]
+
+
+def _tanks(vehicle: Vehicle) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": tank.name,
+            "from": tank.forward_end,
+            "to": tank.aft_end,
+            "fill": tank.fill,
+            "surface": tank.surface,
+            "mass": tank.mass,
+        }
+        for tank in vehicle.tanks
     ]
 
 

@@ -26,6 +26,16 @@ from beal.vehicle.parts import (
     known,
 )
 from beal.vehicle.stations import StationTable, mean
+from beal.vehicle.tanks import Tank, laden
+
+# Parts that sit somewhere: key in the model file, field, and their stations.
+PLACED = (
+    ("point_mass", "point_masses", ("station",)),
+    ("tank", "tanks", ("forward_end", "aft_end")),
+    ("axial_load", "axial_loads", ("station",)),
+    ("sensor", "sensors", ("station",)),
+    ("force", "forces", ("station",)),
+)
 
 
 @dataclass(frozen=True)
@@ -66,6 +76,7 @@ class Vehicle(Part):
     joints : sequence of Joint
         One fewer than the stages, in order.
     point_masses : sequence of PointMass
+    tanks : sequence of Tank
     support : Support
     thrust : Thrust
     damping : Damping
@@ -96,6 +107,7 @@ class Vehicle(Part):
     stages: tuple[Stage, ...] = Field(alias="stage")
     joints: tuple[Joint, ...] = Field(alias="joint", default=())
     point_masses: tuple[PointMass, ...] = Field(alias="point_mass", default=())
+    tanks: tuple[Tank, ...] = Field(alias="tank", default=())
     support: Support = Support()
     thrust: Thrust = Thrust()
     damping: Damping = Damping()
@@ -137,15 +149,20 @@ class Vehicle(Part):
         """Whole length, in m."""
         return self.boundaries[-1]
 
+    @cached_property
+    def laden(self) -> tuple[Stage, ...]:
+        """The stages with what is in the tanks added to their mass per length: what moves and is accelerated."""
+        return laden(self.stages, self.tanks) if self.tanks else self.stages
+
     @property
     def mass(self) -> float:
         """Total mass, in kg."""
-        return sum(stage.mass for stage in self.stages) + sum(p.mass for p in self.point_masses)
+        return sum(stage.mass for stage in self.laden) + sum(p.mass for p in self.point_masses)
 
     @property
     def centre_of_mass(self) -> float:
         """Station of the centre of mass, in m."""
-        stages = zip(self.stages, self.boundaries, strict=False)
+        stages = zip(self.laden, self.boundaries, strict=False)
         moment = sum(x * stage.mass + stage.mass_moments[1] for stage, x in stages)
         return (moment + sum(p.mass * p.station for p in self.point_masses)) / self.mass
 
@@ -154,7 +171,7 @@ class Vehicle(Part):
         """Pitch inertia of the rigid vehicle about its centre of mass, in kg m^2."""
         centre = self.centre_of_mass
         inertia = sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
-        for stage, x in zip(self.stages, self.boundaries, strict=False):
+        for stage, x in zip(self.laden, self.boundaries, strict=False):
             mass, first, second = stage.mass_moments
             own = first / mass  # centre of mass, from the stage's front
             inertia += second - mass * own**2 + mass * (x + own - centre) ** 2
@@ -196,7 +213,7 @@ class Vehicle(Part):
     @property
     def scales(self) -> Scales:
         """Reference quantities of the non-dimensional form."""
-        first = self.stages[0]
+        first = self.laden[0]
         return Scales(self.length, mean(first.mass_per_length), mean(first.bending_stiffness))
 
     def _unsuited_loads(self) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
@@ -233,21 +250,22 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
         yield ("joint",), message, len(joints)
     lengths = [metres(stage, "length") for stage in stages]
     total = sum(lengths) if lengths and all(x > 0 for x in lengths) else math.inf
-    placed = {"point_mass": "point_masses", "axial_load": "axial_loads", "sensor": "sensors", "force": "forces"}
-    for alias, name in placed.items():
+    for alias, name, fields in PLACED:
         for index, part in enumerate(_parts(data, alias, name)):
-            station = metres(part, "station")
-            if station > total * (1 + 1e-12):
-                message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
-                yield (alias, index, "station"), message, station
+            for field in fields:
+                station = metres(part, field)
+                if station > total * (1 + 1e-12):
+                    message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
+                    yield (alias, index, field), message, station
     station = metres(_field(data, "thrust"), "station")
     if station > total * (1 + 1e-12):
         message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
         yield ("thrust", "station"), message, station
-    names = [_field(sensor, "name") for sensor in _parts(data, "sensor", "sensors")]
-    for index, name in enumerate(names):
-        if isinstance(name, str) and name in names[:index]:
-            yield ("sensor", index, "name"), f"must be unique, found {name!r} again", name
+    for alias, name in (("tank", "tanks"), ("sensor", "sensors")):
+        names = [_field(part, "name") for part in _parts(data, alias, name)]
+        for index, given in enumerate(names):
+            if isinstance(given, str) and given in names[:index]:
+                yield (alias, index, "name"), f"must be unique, found {given!r} again", given
 
 
 def _parts(data: dict[str, Any], alias: str, name: str) -> list[Any]:
