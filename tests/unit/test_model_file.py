@@ -89,7 +89,7 @@ def test_all_problems_are_listed_under_the_name_of_the_file(tmp_path):
     with pytest.raises(ModelError) as caught:
         load(path)
     known = "title, units, stage, joint, point_mass, tank, support, thrust, damping, distributed_thrust, "
-    known += "axial_load, gravity, sensor, force"
+    known += "axial_load, gravity, sensor, force, timeline"
     assert str(caught.value).splitlines() == [
         f"{path}: 5 problems",
         f"  stages: unknown key; known here: {known}",

@@ -21,6 +21,7 @@ from beal.vehicle.parts import (
 )
 from beal.vehicle.paths import value_at, with_values
 from beal.vehicle.tanks import Tank
+from beal.vehicle.timeline import Timeline
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
@@ -41,6 +42,7 @@ __all__ = [
     "Table",
     "Tank",
     "Thrust",
+    "Timeline",
     "Vehicle",
     "catalog",
     "dumps",

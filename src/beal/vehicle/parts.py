@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 
+from beal.units import to_si
 from beal.vehicle.base import PLAIN, TABLE, Part, si
 from beal.vehicle.stations import (
     NOT_NEGATIVE,
@@ -316,7 +317,11 @@ class Force(Part):
     signal: Signal
 
 
-def known(value: Any) -> bool:
-    """Whether a field of raw input is a usable number."""
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and -LARGEST <= value <= LARGEST
+def number(value: Any, unit: str) -> float:
+    """A quantity of raw input; nan, which fails every comparison, where it is not one."""
+    try:
+        value = to_si(value, unit) if isinstance(value, str) else value
+    except ValueError:
+        return math.nan
+    given = isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value) if given and -LARGEST <= value <= LARGEST else math.nan

@@ -53,6 +53,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
         "tanks": _tanks(vehicle),
         "sensors": [part.model_dump() for part in vehicle.sensors],
+        "timeline": _timeline(vehicle),
         "nondimensional": _groups(vehicle),
     }
 
@@ -87,6 +88,13 @@ def _tanks(vehicle: Vehicle) -> list[dict[str, Any]]:
         }
         for tank in vehicle.tanks
     ]
+
+
+def _timeline(vehicle: Vehicle) -> dict[str, float] | None:
+    if vehicle.timeline is None:
+        return None
+    time = vehicle.timeline.time
+    return {"times": len(time), "from": time[0], "to": time[-1]}
 
 
 def _property(given: Property) -> float | dict[str, Any]:

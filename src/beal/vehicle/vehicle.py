@@ -7,11 +7,9 @@ from functools import cached_property
 from itertools import accumulate
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, FiniteFloat, ValidationError, model_validator
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic import Field, FiniteFloat, model_validator
 
-from beal.units import to_si
-from beal.vehicle.base import Part, si
+from beal.vehicle.base import Misfit, Part, refusal, si, together
 from beal.vehicle.parts import (
     AxialLoad,
     Damping,
@@ -23,10 +21,11 @@ from beal.vehicle.parts import (
     Stage,
     Support,
     Thrust,
-    known,
+    number,
 )
 from beal.vehicle.stations import StationTable, mean
 from beal.vehicle.tanks import Tank, laden
+from beal.vehicle.timeline import Timeline, strangers
 
 # Parts that sit somewhere: key in the model file, field, and their stations.
 PLACED = (
@@ -87,6 +86,8 @@ class Vehicle(Part):
         flight gravity accelerates all parts alike.
     sensors : sequence of Sensor
     forces : sequence of Force
+    timeline : Timeline, optional
+        Of a flight, see `beal.flight`.
     title : str
     units : {"SI", "nondimensional"}
 
@@ -116,27 +117,17 @@ class Vehicle(Part):
     gravity: Annotated[FiniteFloat, si("m/s^2")] = 0.0
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
+    timeline: Timeline | None = None
 
     @model_validator(mode="wrap")
     @classmethod
     def _fits_together(cls, data: Any, handler: Any) -> "Vehicle":
-        """Checks across parts run even where a part is wrong, so that all problems are reported at once."""
-        errors: list[InitErrorDetails] = []
-        try:
-            vehicle: Vehicle = handler(data)
-        except ValidationError as error:
-            errors = [_again(item) for item in error.errors(include_url=False)]
-            parts = data if isinstance(data, dict) else {}
-        else:
-            parts = vehicle.__dict__
-        errors += [_detail(*problem) for problem in _misfits(parts)]
-        if not errors:
-            errors = [_detail(*problem) for problem in vehicle._unsuited_loads()]
-        if not errors and not vehicle._in_range():
+        vehicle: Vehicle = together(cls, data, handler, _misfits)
+        if misfits := list(vehicle._unsuited_loads()):
+            raise refusal(cls, misfits)
+        if not vehicle._in_range():
             message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
-            errors.append(_detail(("stage",), message, vehicle.length))
-        if errors:
-            raise ValidationError.from_exception_data(cls.__name__, errors)
+            raise refusal(cls, [(("stage",), message, vehicle.length)])
         return vehicle
 
     @cached_property
@@ -216,7 +207,7 @@ class Vehicle(Part):
         first = self.laden[0]
         return Scales(self.length, mean(first.mass_per_length), mean(first.bending_stiffness))
 
-    def _unsuited_loads(self) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+    def _unsuited_loads(self) -> Iterator[Misfit]:
         for index, load in enumerate(self.distributed_thrusts):
             if isinstance(load.value, StationTable) and (wrong := load.value.misfit(self.length)):
                 yield ("distributed_thrust", index, "value", "x"), wrong, load.value.x[-1]
@@ -237,7 +228,7 @@ class Vehicle(Part):
         return sum(station >= x - tolerance for x in inner)
 
 
-def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+def _misfits(data: dict[str, Any]) -> Iterator[Misfit]:
     """(location, message, input) of what does not fit together in raw input, as far as it can be judged."""
     stages = _parts(data, "stage", "stages")
     joints = _parts(data, "joint", "joints")
@@ -266,6 +257,8 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
         for index, given in enumerate(names):
             if isinstance(given, str) and given in names[:index]:
                 yield (alias, index, "name"), f"must be unique, found {given!r} again", given
+    tanks = [_field(tank, "name") for tank in _parts(data, "tank", "tanks")]
+    yield from strangers(data.get("timeline"), tanks, len(stages))
 
 
 def _parts(data: dict[str, Any], alias: str, name: str) -> list[Any]:
@@ -279,19 +272,4 @@ def _field(part: Any, name: str) -> Any:
 
 def metres(part: Any, name: str) -> float:
     """A length of raw input; nan, which fails every comparison, where it is not one."""
-    value = _field(part, name)
-    try:
-        value = to_si(value, "m") if isinstance(value, str) else value
-    except ValueError:
-        return math.nan
-    return float(value) if known(value) else math.nan
-
-
-def _detail(location: tuple[str | int, ...], message: str, value: Any) -> InitErrorDetails:
-    return {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}
-
-
-def _again(item: Any) -> InitErrorDetails:
-    if item["type"] in ("value_error", "misfit") or "error" in item.get("ctx", {}):
-        return _detail(item["loc"], str(item["msg"]).removeprefix("Value error, "), item["input"])
-    return {"type": item["type"], "loc": item["loc"], "input": item["input"], "ctx": item.get("ctx", {})}
+    return number(_field(part, name), "m")
