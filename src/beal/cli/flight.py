@@ -1,0 +1,164 @@
+"""``beal flight``: margins over the flight."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from beal.cli.options import AsJson, Model
+from beal.cli.output import cell, emit, new_file, new_path, note, progress_bar, show_table, write_columns
+from beal.errors import ModelError
+
+if TYPE_CHECKING:
+    from beal.study.flight import Flight, FlightState
+
+FIGURES = (".png", ".svg", ".pdf")
+
+
+def flight(
+    model: Model,
+    timeline: Annotated[
+        Path | None, typer.Option("--timeline", metavar="FILE", help="CSV with time, thrust, fill.TANK, stages.")
+    ] = None,
+    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 3,
+    table: Annotated[Path | None, typer.Option("--csv", metavar="OUT", help="Write a table there.")] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", metavar="OUT", help="Draw it there: .png, .svg or .pdf.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Mass, frequencies, critical thrust and margin at every time of a flight."""
+    from beal.cli import NOT_CONVERGED
+    from beal.interop.files import load
+    from beal.study.flight import flight as fly
+
+    if figure and figure.suffix.lower() not in FIGURES:
+        raise ModelError(f"must end with {', '.join(FIGURES)}", str(figure))
+    vehicle = load(model)
+    with progress_bar() as progress:
+        found = fly(vehicle, timeline, modes, lambda done, total: progress("times", done, total))
+    if table:
+        with new_file(table) as file:
+            write_columns(file, _columns(found))
+    if figure:
+        _draw(found, figure)
+    if as_json:
+        emit({**_data(found), "units": found.units})
+    else:
+        _show(found)
+        for path in filter(None, (table, figure)):
+            note(f"written to {path}")
+    if any(state.status == "not_converged" for state in found.states):
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _data(found: "Flight") -> dict[str, Any]:
+    """One list for each quantity, an entry for each time."""
+    omega = found.angular_frequency
+    return {
+        "time": found.time,
+        "thrust": found.thrust,
+        "mass": found.mass,
+        "stages": [_stages(state) for state in found.states],
+        "angular_frequency": omega,
+        **({"frequency_hz": omega / (2 * math.pi)} if found.units == "SI" else {}),
+        "critical_thrust": found.critical_thrust,
+        "kind": [state.critical and state.critical.kind for state in found.states],
+        "modes": [state.critical and state.critical.modes for state in found.states],
+        "error_estimate": [state.critical and state.critical.error_estimate for state in found.states],
+        "searched_to": found.searched_to,
+        "margin": found.margin,
+        "margin_is_lower_bound": found.at_least,
+        "status": [state.status for state in found.states],
+        "reason": [state.reason for state in found.states],
+    }
+
+
+def _columns(found: "Flight") -> dict[str, Any]:
+    """The same with a column for each mode, and nothing where there is no number."""
+    import numpy as np
+
+    columns: dict[str, Any] = {}
+    for name, values in _data(found).items():
+        if name == "modes":
+            for place, end in enumerate(("mode_low", "mode_high")):
+                columns[end] = [pair and pair[place] for pair in values]
+        elif np.ndim(values) == 2:
+            columns |= {f"{name}_{n}": column for n, column in enumerate(np.transpose(values), 1)}
+        else:
+            columns[name] = values
+    return {name: np.array([_known(value) for value in column], dtype=object) for name, column in columns.items()}
+
+
+def _known(value: Any) -> Any:
+    """None for nan."""
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
+def _show(found: "Flight") -> None:
+    si = found.units == "SI"
+    staged = len({state.stages for state in found.states}) > 1
+    scale, unit = (2 * math.pi, " [Hz]") if si else (1.0, "")
+    count = found.angular_frequency.shape[1]
+    name = "f" if si else "omega"
+    columns = ["time", "mass", "thrust"]
+    columns = [f"{title} [{unit}]" if si else title for title, unit in zip(columns, ("s", "kg", "N"), strict=True)]
+    columns += [*(["stages"] if staged else []), *(f"{name} {n}{unit}" for n in range(1, count + 1))]
+    columns += ["critical thrust" + (" [N]" if si else ""), "instability", "margin"]
+    rows = [
+        [
+            state.time,
+            state.mass,
+            state.thrust,
+            *([_stages(state)] if staged else []),
+            *(_known(omega / scale) for omega in frequencies),
+            state.critical and state.critical.critical_thrust,
+            _instability(state),
+            _margin(state),
+        ]
+        for state, frequencies in zip(found.states, found.angular_frequency.tolist(), strict=True)
+    ]
+    show_table(columns, rows, "margin: critical over actual thrust, less 1")
+    for reason in dict.fromkeys(state.reason for state in found.states if state.reason):
+        times = ", ".join(cell(state.time) for state in found.states if state.reason == reason)
+        print(f"at {times}: {reason}")
+
+
+def _stages(state: "FlightState") -> str:
+    first, last = state.stages
+    return f"{first}" if first == last else f"{first}-{last}"
+
+
+def _instability(state: "FlightState") -> str:
+    found = state.critical
+    if found is None:
+        return state.status.replace("_", " ")
+    if found.elastic is not None:
+        return "tumbles"
+    if found.modes is None:
+        return f"stable up to {found.searched_to:.6g}"
+    low, high = found.modes
+    return f"{found.kind} {low}" if low == high else f"{found.kind} {low}-{high}"
+
+
+def _margin(state: "FlightState") -> str:
+    if math.isnan(state.margin):
+        return ""
+    return f"{'>= ' if state.at_least else ''}{state.margin:.4g}"
+
+
+def _draw(found: "Flight", path: Path) -> None:
+    try:
+        from matplotlib.figure import Figure
+
+        from beal import plot
+    except ModuleNotFoundError as error:
+        if error.name != "matplotlib":
+            raise
+        raise ModelError("--figure: needs matplotlib, which is not installed; install beal[plot]") from None
+    kind = path.suffix.lower().removeprefix(".")
+    with plot.style(), new_path(path) as part:
+        page = Figure(figsize=(6.4, 5.2), layout="constrained")
+        plot.flight(found, page.subplots())
+        page.savefig(part, format=kind, metadata={"Date": None} if kind == "svg" else {})
