@@ -33,8 +33,8 @@ def flight(
     from beal.interop.files import load
     from beal.study.flight import flight as fly
 
-    if figure and figure.suffix.lower() not in FIGURES:
-        raise ModelError(f"must end with {', '.join(FIGURES)}", str(figure))
+    if figure:
+        _check_figure(figure)
     vehicle = load(model)
     with progress_bar() as progress:
         found = fly(vehicle, timeline, modes, lambda done, total: progress("times", done, total))
@@ -148,15 +148,20 @@ def _margin(state: "FlightState") -> str:
     return f"{'>= ' if state.at_least else ''}{state.margin:.4g}"
 
 
-def _draw(found: "Flight", path: Path) -> None:
+def _check_figure(path: Path) -> None:
+    if path.suffix.lower() not in FIGURES:
+        raise ModelError(f"must end with {', '.join(FIGURES)}", str(path))
     try:
-        from matplotlib.figure import Figure
-
-        from beal import plot
-    except ModuleNotFoundError as error:
-        if error.name != "matplotlib":
-            raise
+        import matplotlib  # noqa: F401  # before anything is computed for it
+    except ModuleNotFoundError:
         raise ModelError("--figure: needs matplotlib, which is not installed; install beal[plot]") from None
+
+
+def _draw(found: "Flight", path: Path) -> None:
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
     kind = path.suffix.lower().removeprefix(".")
     with plot.style(), new_path(path) as part:
         page = Figure(figsize=(6.4, 5.2), layout="constrained")

@@ -91,18 +91,17 @@ def _frequencies(ax: "Axes", result: Flight, parts: list[slice]) -> None:
     for mode, values in enumerate(frequencies.T):
         color, dash = CYCLE[mode % len(CYCLE)], DASHES[mode % len(DASHES)]
         _line(ax, result.time, values, parts, f"mode {mode + 1}", color, dash)
-    first = frequencies[frequencies[:, 0] > 0, 0]
-    _scaled(ax, float(np.max(first, initial=0.0) / np.min(first, initial=np.inf)))
     ax.set_ylabel("frequency (Hz)" if si else "angular frequency")
-    ax.legend(ncols=min(frequencies.shape[1], 4), loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
+    if frequencies.size:
+        first = frequencies[frequencies[:, 0] > 0, 0]
+        _scaled(ax, float(np.max(first, initial=0.0) / np.min(first, initial=np.inf)))
+        _legend(ax)
 
 
 def _thrusts(ax: "Axes", result: Flight, parts: list[slice]) -> None:
     thrust = np.where(result.thrust > 0, result.thrust, np.nan)
-    critical, kinds = (
-        result.critical_thrust,
-        np.array([state.critical.kind if state.critical else "" for state in result.states]),
-    )
+    critical = result.critical_thrust
+    kinds = np.array([state.critical.kind if state.critical else "" for state in result.states])
     for kind, dash in KINDS.items():
         if np.any(kinds == kind):
             values = np.where(kinds == kind, critical, np.nan)
@@ -124,7 +123,7 @@ def _thrusts(ax: "Axes", result: Flight, parts: list[slice]) -> None:
     ax.set_ylabel("thrust")
     if np.any(np.isfinite(result.margin)):
         _mark_least(ax, result, borne)
-    ax.legend(ncols=4, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
+    _legend(ax)
 
 
 def _mark_least(ax: "Axes", result: Flight, borne: Array) -> None:
@@ -153,6 +152,10 @@ def _line(ax: "Axes", time: Array, values: Array, parts: list[slice], label: str
     for part in parts:
         ax.plot(time[part], values[part], label=label, **look)
         label = ""
+
+
+def _legend(ax: "Axes") -> None:
+    ax.legend(ncols=4, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
 
 
 def _scaled(ax: "Axes", ratio: float) -> None:
