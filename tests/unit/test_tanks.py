@@ -184,3 +184,8 @@ def test_a_map_over_fill_is_solved():
     found = stability_map(vehicle, {"tank[0].fill": [0.0, 0.5]}, workers=1)
     expected = [critical_thrust(v).critical_thrust for v in (rocket(), vehicle)]
     np.testing.assert_allclose(found.critical_thrust, expected, rtol=1e-6)
+
+
+def test_propellant_beyond_the_range_of_numbers_is_refused_without_a_warning():
+    with pytest.raises(ModelError, match="leave the range of numbers"):
+        rocket(Tank(**FUEL | {"mass_per_length": 1e308, "fill": 1.0}))

@@ -54,6 +54,7 @@ def test_equal_timelines_have_equal_hashes():
         ({"time": [0.0, 2.0, 1.0]}, [("time[2]", "must not be below the one before, 2, found 1")]),
         ({"time": [0.0, 0.0, 0.0]}, [("time[2]", "may come twice, for a step; found 0 again")]),
         ({"time": [0.0, math.nan, 1.0]}, [("time[1]", "must be a number, found nan")]),
+        ({"time": "0"}, [("time", "must be a list (of tables: [[name]], not [name]), found '0'")]),
         ({"thrust": [9.0, 9.0]}, [("thrust", "must have one entry for each of the 3 times, found 2")]),
         (
             {"thrust": [9.0, -9.0, math.inf]},

@@ -49,7 +49,7 @@ def flight(
         _show(found)
         for path in filter(None, (table, figure)):
             note(f"written to {path}")
-    if any(state.status == "not_converged" for state in found.states):
+    if any(state.status != "solved" for state in found.states):
         raise typer.Exit(NOT_CONVERGED)
 
 

@@ -80,7 +80,7 @@ def _misfits(data: dict[str, Any]) -> Iterator[Misfit]:
     histories = {("thrust",): data.get("thrust"), ("stages",): data.get("stages") or None}
     histories |= {("fill", name): values for name, values in _mapping(data.get("fill")).items()}
     for location, values in histories.items():
-        if isinstance(values, list | tuple) and len(values) != len(times):
+        if times and isinstance(values, list | tuple) and len(values) != len(times):
             yield location, f"must have one entry for each of the {len(times)} times, found {len(values)}", values
     for n, text in enumerate(_listed(data.get("stages"))):
         if isinstance(text, str) and _range(text) is None:

@@ -7,6 +7,7 @@ from functools import cached_property
 from itertools import accumulate
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field, FiniteFloat, model_validator
 
 from beal.vehicle.base import Misfit, Part, refusal, si, together
@@ -216,7 +217,8 @@ class Vehicle(Part):
 
     def _in_range(self) -> bool:
         try:
-            values = (self.scales.thrust, self.scales.time, self.mass * self.length**2)
+            with np.errstate(over="ignore", invalid="ignore"):  # of tables
+                values = (self.scales.thrust, self.scales.time, self.mass * self.length**2)
         except (OverflowError, ZeroDivisionError):
             return False
         return all(0 < value < math.inf for value in values)
