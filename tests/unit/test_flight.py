@@ -36,6 +36,7 @@ def test_each_time_is_a_vehicle_of_its_own():
     assert found.margin[1] == critical_thrust(half).critical_thrust / 3.0 - 1
     assert found.margin[3] == pytest.approx(109.689191958738 / 50 - 1)  # a uniform free beam
     assert all(state.status == "solved" for state in found.states)
+    assert not found.at_least.any()
 
 
 def test_a_coasting_vehicle_has_a_critical_thrust_and_no_margin():

@@ -94,6 +94,8 @@ def test_a_tank_that_ends_at_a_stage_s_end_up_to_rounding_leaves_no_sliver():
     tank = Tank(name="fuel", forward_end=2.0 - 1e-13, aft_end=3.0, mass_per_length=4.0)
     assert rocket(tank).laden[0] is rocket(tank).stages[0]
     assert rocket(tank).laden[1].mass_per_length.x == (0.0, 1.0)
+    short = tank.model_copy(update={"aft_end": 3.0 - 1e-13})
+    assert rocket(short).laden[1].mass_per_length.x == (0.0, 1.0)
 
 
 def by_hand():
