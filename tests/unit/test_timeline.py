@@ -6,7 +6,8 @@ import re
 import pytest
 
 from beal.errors import ModelError
-from beal.vehicle import Joint, Stage, Tank, Timeline, Vehicle, dumps, load, loads
+from beal.interop.files import load
+from beal.vehicle import Joint, Stage, Tank, Timeline, Vehicle, dumps, loads
 from beal.vehicle.file import read_timeline
 from beal.vehicle.summary import summary
 

@@ -124,7 +124,7 @@ def test_the_example_has_the_published_frequencies(state, joint, free, loaded):
     assert under_thrust / unloaded == pytest.approx(np.divide(loaded, free), abs=6e-5)
 
 
-# By basis="hermite", cubic elements refined and extrapolated, which takes two minutes each; the engine as in the example.
+# By basis="hermite", cubic elements refined and extrapolated, which takes two minutes each.
 @pytest.mark.parametrize(
     ("fill", "kind", "modes", "thrust"),
     [

@@ -166,4 +166,5 @@ def _draw(found: "Flight", path: Path) -> None:
     with plot.style(), new_path(path) as part:
         page = Figure(figsize=(6.4, 5.2), layout="constrained")
         plot.flight(found, page.subplots())
-        page.savefig(part, format=kind, metadata={"Date": None} if kind == "svg" else {})
+        dates = {} if kind == "png" else {"Date" if kind == "svg" else "CreationDate": None}  # the same each time
+        page.savefig(part, format=kind, metadata=dates)
