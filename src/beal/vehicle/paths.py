@@ -85,8 +85,8 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     vehicle : Vehicle
     values : mapping of path to number
         ``stage.split`` moves the first joint and keeps the total length of the first two stages; the stations of
-        masses, tanks, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the lengths
-        that they describe. In SI, text with a unit is accepted as in the model file.
+        masses, tanks, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the
+        lengths that they describe. In SI, text with a unit is accepted as in the model file.
 
     Returns
     -------
