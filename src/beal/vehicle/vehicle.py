@@ -124,11 +124,12 @@ class Vehicle(Part):
     @classmethod
     def _fits_together(cls, data: Any, handler: Any) -> "Vehicle":
         vehicle: Vehicle = together(cls, data, handler, _misfits)
-        if misfits := list(vehicle._unsuited_loads()):
-            raise refusal(cls, misfits)
-        if not vehicle._in_range():
-            message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
-            raise refusal(cls, [(("stage",), message, vehicle.length)])
+        with np.errstate(over="ignore", invalid="ignore"):  # of tables that leave the range of numbers
+            if misfits := list(vehicle._unsuited_loads()):
+                raise refusal(cls, misfits)
+            if not vehicle._in_range():
+                message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
+                raise refusal(cls, [(("stage",), message, vehicle.length)])
         return vehicle
 
     @cached_property
@@ -217,8 +218,7 @@ class Vehicle(Part):
 
     def _in_range(self) -> bool:
         try:
-            with np.errstate(over="ignore", invalid="ignore"):  # of tables
-                values = (self.scales.thrust, self.scales.time, self.mass * self.length**2)
+            values = (self.scales.thrust, self.scales.time, self.mass * self.length**2)
         except (OverflowError, ZeroDivisionError):
             return False
         return all(0 < value < math.inf for value in values)
