@@ -91,11 +91,12 @@ def test_all_problems_are_listed_under_the_name_of_the_file(tmp_path):
         load(path)
     known = "title, units, stage, joint, point_mass, tank, support, thrust, damping, distributed_thrust, "
     known += "axial_load, gravity, sensor, force, timeline"
+    of_thrust = "tangency, scale, station, line, along, axial_term, axial_force, nominal"
     assert str(caught.value).splitlines() == [
         f"{path}: 5 problems",
         f"  stages: unknown key; known here: {known}",
         "  stage[0].length: must be greater than 0, found -1.0",
-        "  thrust.tangent: unknown key; known here: tangency, scale, station, line, axial_force, nominal",
+        f"  thrust.tangent: unknown key; known here: {of_thrust}",
         f"  fuel: unknown key; known here: {known}",
         "  joint: must be one fewer than the stages, 0 (an empty [[joint]] is rigid), found 1",
     ]

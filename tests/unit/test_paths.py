@@ -26,7 +26,12 @@ def refused(message):
 
 def test_every_listed_path_reads_its_value():
     expected = {f"stage[{n}].{name}": 1.0 for n in range(3) for name in ("mass_per_length", "bending_stiffness")}
-    expected |= {f"stage[{n}].foundation_stiffness": 0.0 for n in range(3)}
+    for name, value in (
+        ("foundation_stiffness", 0.0),
+        ("rotary_inertia_per_length", 0.0),
+        ("shear_stiffness", math.inf),
+    ):
+        expected |= {f"stage[{n}].{name}": value for n in range(3)}
     expected |= {f"stage[{n}].length": length for n, length in enumerate((1.0, 2.0, 5.0))}
     expected |= {"joint[0].rotational_stiffness": math.inf, "joint[0].shear_stiffness": math.inf}
     expected |= {"joint[1].rotational_stiffness": 3.0, "joint[1].shear_stiffness": math.inf}

@@ -21,7 +21,7 @@ def beam(**more):
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        ("{x = [0, 2], value = [1, -1]}", "mass_per_length.value[1]: must be greater than 0, found -1"),
+        ("{x = [0, 2], value = [1, -1]}", "mass_per_length.value[1]: must be greater than or equal to 0, found -1"),
         ("{x = [0, 2], value = [1, nan]}", "mass_per_length.value[1]: must be a number, found nan"),
         ("{x = [0, 2], value = [1, '3 N']}", "mass_per_length.value[1]: expected a number, or a number with a unit"),
         ("{x = [0, 3, 2], value = [1, 2, 3]}", "mass_per_length.x[2]: must not be below the one before, 3, found 2"),

@@ -10,8 +10,7 @@ from beal.discretisation.axial import axial_force, axial_force_in_joints
 from beal.discretisation.basis import segments
 from beal.discretisation.build import discretise
 from beal.errors import ModelError
-from beal.interop.nastran_deck import nastran_text
-from beal.interop.stations import read_stations, stations_text
+from beal.interop.files import content, load
 from beal.stability.critical import critical_thrust
 from beal.stability.limit import waves
 from beal.study.map import stability_map
@@ -166,12 +165,18 @@ def test_the_resolved_model_shows_tanks_apart_from_stages():
     assert resolved["tanks"] == [{"name": "fuel", "from": 1.0, "to": 2.5, "fill": 0.5, "surface": 1.75, "mass": 3.0}]
 
 
-def test_a_station_table_keeps_the_tanks_and_a_deck_refuses_them(tmp_path):
+def read_back(vehicle, path):
+    path.write_bytes(content(vehicle, path))
+    return load(path)
+
+
+def test_a_station_table_keeps_the_tanks_and_a_deck_their_mass(tmp_path):
     vehicle = Vehicle(stages=[FRONT], tanks=[Tank(**FUEL | {"aft_end": 2.0})])
-    (tmp_path / "stations.csv").write_text(stations_text(vehicle))
-    assert read_stations(tmp_path / "stations.csv").vehicle.model_copy(update={"title": ""}) == vehicle
-    with pytest.raises(ModelError, match=re.escape("tank[0]: is not written to decks")):
-        nastran_text(vehicle)
+    assert read_back(vehicle, tmp_path / "stations.csv").model_copy(update={"title": ""}) == vehicle
+    deck = read_back(vehicle, tmp_path / "deck.bdf")
+    assert not deck.tanks
+    assert deck.mass == pytest.approx(vehicle.mass, rel=1e-12)
+    assert critical_thrust(deck).critical_thrust == pytest.approx(critical_thrust(vehicle).critical_thrust, rel=1e-9)
 
 
 def test_the_paper_s_formulations_refuse_propellant():

@@ -32,7 +32,8 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
 
     A bar has E = 1, so that its second moment of area is the bending stiffness, and all its mass is non-structural.
     Where a stage varies, it has tapered bars between grids at the stations of its tables.
-    What bulk data cannot say (thrust, sensors, forces, names) is kept in comments that begin with ``$ beal:``.
+    What bulk data cannot say (thrust, sensors, forces, names) is kept in comments that begin with ``$ beal:``. What is
+    in tanks becomes mass of the bars; the tanks themselves, and a timeline, stay behind.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ from beal.errors import ConvergenceError
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import vanishing_root
 from beal.stability.limit import waves
-from beal.stability.pencil import CORRECTED, TWICE_CORRECTED, Array, Pencil, pencil
+from beal.stability.pencil import TWICE_CORRECTED, Array, Pencil, corrections, pencil
 from beal.stability.refine import LAST_ORDER, polish
 from beal.stability.ridge import Instability
 from beal.stability.spectrum import Spectrum, spectrum
@@ -152,7 +152,7 @@ class Reduction:
         system = self.system
         loose = sum((j.rotational_stiffness == 0) + (j.shear_stiffness == 0) for j in self._vehicle.joints)
         modes = self._lowest_modes(BLOCK + loose, least, max(least, MOST_WATCHED + loose))
-        low = np.hstack((system.motions, modes[:, : CORRECTED + loose]))
+        low = np.hstack((system.motions, modes[:, : corrections(self._vehicle, self.watched) + loose]))
         groups = [modes]
         sides = [side for load in (system.K1, system.dead) if load is not None for side in (load, load.T)]
         for side in [*sides, system.C] if self._vehicle.damped else sides:

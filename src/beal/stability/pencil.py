@@ -7,6 +7,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from beal.discretisation.operators import Operators
+from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -119,8 +120,16 @@ def _only_follows(full: Pencil) -> bool:
     return all(np.abs(column).max(initial=0.0) <= UNCOUPLED * np.abs(matrix).max() for matrix, column in columns)
 
 
-def reduced(full: Pencil, modes: int = MODES) -> Pencil:
-    """The pencil in its lowest modes and the changes of the lowest few under thrust.
+def corrections(vehicle: Vehicle, watched: int) -> int:
+    """How many of the lowest modes need their change under thrust: of stages that shear all that are watched.
+
+    Short waves of shear feel the thrust as long ones do, while bending is the stiffer the shorter it is.
+    """
+    return watched if vehicle.shears else CORRECTED
+
+
+def reduced(full: Pencil, modes: int = MODES, corrected: int = CORRECTED) -> Pencil:
+    """The pencil in its lowest modes and the changes of the lowest few, ``corrected``, under thrust.
 
     Modes of the unloaded vehicle converge slowly where thrust acts on a joint; with K^-1 K1 v and K^-1 K1^T v of the
     lowest modes v beside them, sixteen vectors do what hundreds of modes do.
@@ -132,10 +141,10 @@ def reduced(full: Pencil, modes: int = MODES) -> Pencil:
     vectors = vectors[:, ::-1]  # largest inertia first: the lowest modes, to full accuracy
     sides = [side for load in (full.K1, full.dead) if load is not None for side in (load, load.T)]
     sides += [] if full.C is None else [full.C]
-    if modes + len(sides) * (CORRECTED + TWICE_CORRECTED) >= len(static):
+    if modes + len(sides) * (corrected + TWICE_CORRECTED) >= len(static):
         return full.projected(vectors)
     factor = scipy.linalg.cho_factor(static)
-    low = vectors[:, : full.rigid + CORRECTED]
+    low = vectors[:, : full.rigid + corrected]
     first = [scipy.linalg.cho_solve(factor, K1 @ low) for K1 in sides]
     second = [scipy.linalg.cho_solve(factor, K1 @ w[:, :TWICE_CORRECTED]) for K1, w in zip(sides, first, strict=True)]
     span = np.hstack((vectors[:, :modes], *first, *second))

@@ -18,6 +18,7 @@ FIRST_ORDER = {"legendre": 8, "hermite": 8}
 SHEARED_ORDER = {"legendre": 16, "hermite": 8}  # shear waves are shorter than those of bending
 LAST_ORDER = {"legendre": 26, "hermite": 64}
 TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
+SHEARED_TOLERANCE = 1e-9  # modes of shear and of bending may be coupled so weakly that rounding leaves more
 MODAL_TOLERANCE = 1e-8  # where damping ratios reach up to modes that no discretisation resolves
 FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
 SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
@@ -30,7 +31,8 @@ def first_order(vehicle: Vehicle, basis: BasisName) -> int:
 
 def default_tolerance(vehicle: Vehicle, basis: BasisName) -> float:
     """Relative error of the critical thrust that is reached without effort."""
-    return max(TOLERANCE[basis], MODAL_TOLERANCE if any(vehicle.damping.ratios) else 0.0)
+    modal = MODAL_TOLERANCE if any(vehicle.damping.ratios) else 0.0
+    return max(TOLERANCE[basis], modal, SHEARED_TOLERANCE if vehicle.shears else 0.0)
 
 
 def polish(full: Pencil, kind: Kind, thrust: float, W: float) -> CriticalPoint:
