@@ -12,11 +12,15 @@ from pathlib import Path
 
 import pytest
 
+import beal
+
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-CLUSTERS, FLIGHT, INTEROP, MAPS = (PAGES.get(name, "") for name in ("clusters", "flight", "interop", "maps"))
+CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL = (
+    PAGES.get(name, "") for name in ("clusters", "flight", "interop", "maps", "model")
+)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -81,9 +85,10 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps"]
+    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model"]
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
+    assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 
@@ -113,6 +118,39 @@ def without_errors(text):
 def test_the_python_of_the_page_on_other_programs_prints_what_it_says(interop_folder, block):
     expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
     assert run([sys.executable, "-c", block], interop_folder).strip() == expected
+
+
+def test_the_vehicle_of_the_page_on_the_model_file_is_as_shown(tmp_path):
+    (tmp_path / "sounder.toml").write_text(blocks("toml", MODEL)[0])
+    for block in blocks("console", MODEL):
+        command, _, shown = block.partition("\n")
+        printed = run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], tmp_path)
+        assert without_rounding(printed) == without_rounding(shown)
+
+
+FORMS = [("engesser", "slope"), ("haringx", "slope")]
+FORMS += [(term, along) for term in ("engesser", "haringx") for along in ("slope", "section")]
+
+
+def test_the_columns_that_shear_of_the_page_on_the_model_file_are_true():
+    for row in re.findall(r"^\| (1000|100|25) \| (.*) \|$", MODEL, re.MULTILINE):
+        for column, (cell, (term, along)) in enumerate(zip(row[1].split("|"), FORMS, strict=True)):
+            if cell.strip():
+                stage = beal.Stage(
+                    length=1.0,
+                    mass_per_length=1.0,
+                    bending_stiffness=1.0,
+                    shear_stiffness=float(row[0]),
+                    rotary_inertia_per_length=0.0025,
+                )
+                vehicle = beal.Vehicle(
+                    units="nondimensional",
+                    stages=[stage],
+                    support=beal.Support(nose="clamped"),
+                    point_masses=[beal.PointMass(station=1.0, mass=0.5)] if column > 1 else [],
+                    thrust=beal.Thrust(along=along, axial_term=term),
+                )
+                assert f"{beal.critical_thrust(vehicle).critical_thrust:.6f}" == cell.strip()
 
 
 def test_the_maps_of_the_page_on_maps_are_as_shown(readme_folder):
