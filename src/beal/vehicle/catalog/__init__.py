@@ -1,0 +1,33 @@
+"""Vehicles from the literature, non-dimensional: EI = m = L = 1 unless an entry says otherwise."""
+
+from beal.vehicle.catalog.beck import (
+    beck,
+    beck_cracked,
+    beck_damped,
+    beck_on_foundation,
+    beck_on_springs,
+    beck_subtangential,
+    beck_tapered,
+)
+from beal.vehicle.catalog.columns import euler, greenhill, hauger, leipholz, pflueger, reut
+from beal.vehicle.catalog.missiles import beal, mladenov_sugiyama, park_mote, tsto
+
+__all__ = [
+    "beal",
+    "beck",
+    "beck_cracked",
+    "beck_damped",
+    "beck_on_foundation",
+    "beck_on_springs",
+    "beck_subtangential",
+    "beck_tapered",
+    "euler",
+    "greenhill",
+    "hauger",
+    "leipholz",
+    "mladenov_sugiyama",
+    "park_mote",
+    "pflueger",
+    "reut",
+    "tsto",
+]
