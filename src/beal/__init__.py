@@ -37,6 +37,7 @@ if _typing.TYPE_CHECKING:
         Thrust,
     )
     from beal.vehicle.vehicle import Vehicle
+    from beal.verification.run import verify
 
 __version__ = _version("beal")
 
@@ -81,6 +82,7 @@ _HOMES = {
     "stability_map": "beal.study.map",
     "thrust_curve": "beal.stability.curve",
     "vanishing_damping_limit": "beal.stability.vanishing",
+    "verify": "beal.verification.run",
 }
 
 __all__ = [
@@ -124,6 +126,7 @@ __all__ = [
     "stability_map",
     "thrust_curve",
     "vanishing_damping_limit",
+    "verify",
 ]
 
 

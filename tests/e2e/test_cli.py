@@ -19,7 +19,7 @@ from beal.errors import ModelError
 from beal.vehicle import Thrust, catalog
 from beal.vehicle.file import load, loads
 
-COMMANDS = ["check", "modes", "critical", "curve", "map", "response", "reproduce", "convert", "example"]
+COMMANDS = ["check", "modes", "critical", "curve", "map", "response", "reproduce", "verify", "convert", "example"]
 HEAVY = {"numpy", "scipy", "pydantic", "xarray", "zarr", "matplotlib", "pint"}
 SI_BEAM = """
 title = "beam"

@@ -1,8 +1,7 @@
 """``beal map`` and ``beal reproduce``: many vehicles, with progress on standard error."""
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,6 +9,7 @@ import typer
 
 from beal.cli.options import AsJson
 from beal.cli.output import check_folder, emit, make_folder, note
+from beal.cli.progress import progress_bar
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def map_study(
 
     task = load_study(study)
     try:
-        with _cluster(scheduler, workers) as executor, _progress() as progress:
+        with _cluster(scheduler, workers) as executor, progress_bar() as progress:
             how = None if scheduler else workers, lambda done, total: progress("points", done, total), executor
             borders = {"refined": _refined(task, refine, output, resume, *how)} if refine is not None else {}
             found = run_study(task, output, resume or refine is not None, *how)
@@ -110,22 +110,9 @@ def reproduce(
         if error.name != "matplotlib":
             raise
         raise ModelError("reproduce: needs matplotlib, which is not installed; install beal[plot]") from None
-    with _progress() as progress:
+    with progress_bar() as progress:
         report = run(output, points=points, progress=progress)
     if as_json:
         emit({"directory": str(output), "report": str(report), "claims": str(output / "claims.json")})
     else:
         print(f"report: {report}")
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[str, int, int], None]]:
-    """A bar on standard error that is moved by (text, done, total)."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task("", total=None)
-        yield lambda text, done, total: bar.update(task, description=text, completed=done, total=total)
