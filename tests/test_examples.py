@@ -80,7 +80,7 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "interop", "maps"]
+    assert sorted(PAGES) == ["clusters", "interop", "maps", "verification"]  # the last is all output of beal verify
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}

@@ -114,7 +114,7 @@ def bessel_load(order: float) -> float:
     Examples
     --------
     >>> round(bessel_load(1 / 3), 10), round(bessel_load(-1 / 3), 10)
-    (18.9562655914, 7.8373474387)
+    (18.9562655914, 7.8373474389)
     """
     return 9 / 4 * first_roots(lambda x: float(jv(order, x)), 1, 0.5)[0] ** 2
 
