@@ -94,6 +94,6 @@ CASES = [
         for k, row in NOSE_SPRING.items()
     ),
     *(Case(*called(beck_on_springs, tail_translation=k), "Kounadis (1977)", row) for k, row in TAIL_SPRING.items()),
-    *(Case(*called(beck_tapered, taper), "", flutter(*row)) for taper, row in TAPERED.items()),
+    *(Case(*called(beck_tapered, taper), "Computed here", flutter(*row)) for taper, row in TAPERED.items()),
     *(Case(*called(beck_cracked, *crack), "Wang (2004)", flutter(*row)) for crack, row in CRACKED.items()),
 ]

@@ -69,8 +69,13 @@ CASES = [
         Case(*called(pflueger, mass, **{damping: 1.0}), TOMMASINI, flutter(*row, of=VANISHING), vanishing)
         for (mass, damping), row in PFLUEGER_LIMIT.items()
     ),
-    *(Case(*called(beal, damping), "Beal (1965)", flutter(*row)) for damping, row in BEAL.items()),
-    Case(*called(beal, 1.0), "Beal (1965)", flutter("88.1526301826", "11.7239082145", of=VANISHING), vanishing),
+    *(Case(*called(beal, internal_damping=damping), "Beal (1965)", flutter(*row)) for damping, row in BEAL.items()),
+    Case(
+        *called(beal, internal_damping=1.0),
+        "Beal (1965)",
+        flutter("88.1526301826", "11.7239082145", of=VANISHING),
+        vanishing,
+    ),
     *(
         Case(
             *called(mladenov_sugiyama, x, k_r, internal_damping=internal, rotational_damping=joint),

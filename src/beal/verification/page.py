@@ -35,7 +35,7 @@ def page(rows: Sequence[Row]) -> str:
     """
     lines = [HEAD, counted(rows)]
     for (title, source), group in groupby(rows, lambda row: (row.title, row.source)):
-        lines += ["", f"## {title[0].upper()}{title[1:]}", "", *([f"{source}.", ""] if source else [])]
+        lines += ["", f"## {title[0].upper()}{title[1:]}", "", f"{source}.", ""]
         lines += _table(list(group))
     return "\n".join(lines) + "\n"
 
