@@ -45,6 +45,22 @@ def random_vehicle(
     )
 
 
+def sheared(vehicle: Vehicle, rng: np.random.Generator) -> Vehicle:
+    """The vehicle with stages that shear, have rotary inertia, both, or neither, and now and then a rigid one."""
+    stages = [
+        stage.model_copy(
+            update={
+                "shear_stiffness": 10 ** rng.uniform(2, 5) if rng.random() < 0.7 else math.inf,
+                "rotary_inertia_per_length": 10 ** rng.uniform(-5, -3) if rng.random() < 0.5 else 0.0,
+                "bending_stiffness": math.inf if rng.random() < 0.1 else stage.bending_stiffness,
+            }
+        )
+        for stage in vehicle.stages
+    ]
+    forms = {"along": ("slope", "section")[rng.integers(2)], "axial_term": ("engesser", "haringx")[rng.integers(2)]}
+    return vehicle.model_copy(update={"stages": stages, "thrust": vehicle.thrust.model_copy(update=forms)})
+
+
 def random_long_vehicle(rng: np.random.Generator, stages: int) -> Vehicle:
     """A vehicle of many stages, from alike to very unlike in length, on joints from soft to rigid."""
     lengths = np.maximum(rng.dirichlet(np.full(stages, rng.choice([0.5, 2.0, 20.0]))), 1e-4)

@@ -27,6 +27,7 @@ UNITS = {
     "bending_stiffness": "N m^2",
     "foundation_stiffness": "N/m^2",
     "rotary_inertia": "kg m^2",
+    "rotary_inertia_per_length": "kg m",
     "rotational_stiffness": "N m/rad",
     "shear_stiffness": "N/m",
     "reference_length": "m",
@@ -35,6 +36,7 @@ UNITS = {
     "thrust_scale": "N",
     "time_scale": "s",
 }
+OF_STAGES = {"shear_stiffness": "N"}  # where joints have the same name for another quantity
 EXAMPLES = ("beck", "beal", "pflueger", "tsto")
 
 
@@ -72,7 +74,8 @@ def _show_part(part: dict[str, Any], units: dict[str, str]) -> None:
     for name, value in part.items():
         if isinstance(value, list):
             if value:
-                columns = [_titled(key, units) for key in value[0]]
+                known = units | OF_STAGES if units and name == "stages" else units
+                columns = [_titled(key, known) for key in value[0]]
                 show_table(columns, [[_text(item) for item in row.values()] for row in value], name.replace("_", " "))
         elif value not in (None, ""):
             ends = isinstance(value, dict)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Rows = Any  # ndarray or sparse array of one row per reading of the shapes
 SNAP = 1e-9  # share of the length within which a station counts as a segment's end
+# What rows read: y, y', psi' (y'' without shear), the section's rotation psi (y' without shear), y' - psi (0 without).
+DEFLECTION, SLOPE, CURVATURE, ROTATION, SHEAR = range(5)
 
 
 @dataclass(frozen=True)
@@ -91,8 +93,8 @@ class Basis(ABC):
         """Number of coordinates."""
 
     @abstractmethod
-    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
-        """Values of a derivative of all shapes at xi in [-1, 1] of a segment, shape (len(xi), size)."""
+    def rows(self, segment: int, xi: Array, reading: int) -> Array:
+        """Readings of all shapes at xi in [-1, 1] of a segment, shape (len(xi), size)."""
 
     def located(self, stations: Array, side: Literal["aft", "forward"]) -> tuple[NDArray[np.intp], Array]:
         """Segments and xi of stations, each of shape (len(stations),); where two meet, the one on the given side."""
@@ -103,46 +105,46 @@ class Basis(ABC):
         index = np.clip(np.searchsorted(starts, stations + shift, side="right") - 1, 0, len(starts) - 1)
         return index, np.clip(2 * (stations - starts[index]) / lengths[index] - 1, -1, 1)
 
-    def at(self, stations: Array, derivative: int = 0, side: Literal["aft", "forward"] = "aft") -> Rows:
-        """Values of a derivative of all shapes at stations, shape (len(stations), size)."""
-        return self.rows_at(*self.located(stations, side), derivative)
+    def at(self, stations: Array, reading: int = DEFLECTION, side: Literal["aft", "forward"] = "aft") -> Rows:
+        """Readings of all shapes at stations, shape (len(stations), size)."""
+        return self.rows_at(*self.located(stations, side), reading)
 
-    def rows_at(self, index: NDArray[np.intp], xi: Array, derivative: int) -> Rows:
-        """Values of a derivative of all shapes at xi of the segments ``index``, shape (len(index), size)."""
+    def rows_at(self, index: NDArray[np.intp], xi: Array, reading: int) -> Rows:
+        """Readings of all shapes at xi of the segments ``index``, shape (len(index), size)."""
         rows = np.empty((len(index), self.size))
         for segment in np.unique(index):
             here = index == segment
-            rows[here] = self.rows(int(segment), xi[here], derivative)
+            rows[here] = self.rows(int(segment), xi[here], reading)
         return rows
 
-    def end(self, end: int, derivative: int) -> Array:
-        """Values at the nose (0) or tail (1), shape (size,)."""
-        return np.asarray(self.rows(-end % len(self.segments), np.array([2.0 * end - 1.0]), derivative)[0])
+    def end(self, end: int, reading: int) -> Array:
+        """A reading at the nose (0) or tail (1), shape (size,)."""
+        return np.asarray(self.rows(-end % len(self.segments), np.array([2.0 * end - 1.0]), reading)[0])
 
-    def jump(self, segment: int, derivative: int) -> Array:
+    def jump(self, segment: int, reading: int) -> Array:
         """[[f]] = f(aft side) - f(forward side) across the front of a segment, shape (size,)."""
-        aft = self.rows(segment, np.array([-1.0]), derivative)[0]
-        return aft - self.rows(segment - 1, np.array([1.0]), derivative)[0]
+        aft = self.rows(segment, np.array([-1.0]), reading)[0]
+        return aft - self.rows(segment - 1, np.array([1.0]), reading)[0]
 
-    def stacked(self, segments: Sequence[int], xi: Array, derivative: int) -> Rows:
+    def stacked(self, segments: Sequence[int], xi: Array, reading: int) -> Rows:
         """Rows of several segments below each other, shape (len(segments) * len(xi), size)."""
-        return np.array([self.rows(i, xi, derivative) for i in segments]).reshape(-1, self.size)
+        return np.array([self.rows(i, xi, reading) for i in segments]).reshape(-1, self.size)
 
     def deformations(self) -> Rows:
         """Deflections and slopes of the ground springs' ends, shape (springs, size)."""
         return np.zeros((0, self.size))
 
-    def at_points(self, segment: int, derivative: int) -> Array:
-        """A derivative of the shapes that live on a segment at its Gauss points, shape (points, shapes)."""
+    def at_points(self, segment: int, reading: int) -> Array:
+        """A reading of the shapes that live on a segment at its Gauss points, shape (points, shapes)."""
         raise NotImplementedError
 
     def expanded(self, segment: int, local: Array) -> Rows:
         """Rows over all shapes from rows over those that live on a segment, shape (len(local), size)."""
         raise NotImplementedError
 
-    def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
+    def jumps(self, segments: Sequence[int], reading: int) -> Rows:
         """Jumps across the fronts of several segments, shape (len(segments), size)."""
-        return np.array([self.jump(i, derivative) for i in segments]).reshape(-1, self.size)
+        return np.array([self.jump(i, reading) for i in segments]).reshape(-1, self.size)
 
 
 @dataclass(frozen=True)
@@ -170,11 +172,11 @@ class Combined(Basis):
     def size(self) -> int:
         return self.transformation.shape[1]
 
-    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
-        return self.basis.rows(segment, xi, derivative) @ self.transformation
+    def rows(self, segment: int, xi: Array, reading: int) -> Array:
+        return self.basis.rows(segment, xi, reading) @ self.transformation
 
-    def jump(self, segment: int, derivative: int) -> Array:
-        return self.basis.jump(segment, derivative) @ self.transformation
+    def jump(self, segment: int, reading: int) -> Array:
+        return self.basis.jump(segment, reading) @ self.transformation
 
     @property
     def springs(self) -> "tuple[GroundSpring, ...]":  # type: ignore[override]

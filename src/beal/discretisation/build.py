@@ -44,7 +44,7 @@ def discretise(
     basis : {"legendre", "hermite"}
         Polynomials on each segment, or cubic finite elements. The last two formulations have their own basis.
     order : int, optional
-        Degree of the curvature, elements per segment, or number of modes.
+        Degree of the strains, elements per segment, or number of modes.
 
     Returns
     -------
@@ -114,6 +114,8 @@ def check_ritz(vehicle: Vehicle, formulation: str) -> None:
         reasons.append("two stages of equal, uniform mass per length and bending stiffness")
     if not vehicle.free_free:
         reasons.append(f"free ends, found {vehicle.support.nose} nose and {vehicle.support.tail} tail")
+    if vehicle.shears or vehicle.turns_inertia:
+        reasons.append("stages that neither shear nor have rotary inertia")
     if vehicle.founded:
         reasons.append("no foundation")
     if vehicle.point_masses:

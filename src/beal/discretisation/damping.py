@@ -3,17 +3,17 @@
 import numpy as np
 import scipy.linalg
 
-from beal.discretisation.basis import Array, Combined
+from beal.discretisation.basis import DEFLECTION, ROTATION, Array, Combined
 from beal.discretisation.operators import Operators
-from beal.discretisation.samples import losses, products
+from beal.discretisation.samples import losses, products, total
 from beal.vehicle.vehicle import Vehicle
 
 
 def damping_matrix(operators: Operators) -> Array:
     """C of a damped vehicle in the coordinates of its operators, symmetric.
 
-        C = int (tau EI phi'' phi''^T + c phi phi^T) dx + sum_j (c_r [[phi']] [[phi']]^T + c_s [[phi]] [[phi]]^T)
-            + sum_i 2 zeta_i omega_i (M v_i) (M v_i)^T
+        C = int (tau EI psi' psi'^T + tau kGA gamma gamma^T + c phi phi^T) dx
+            + sum_j (c_r [[psi]] [[psi]]^T + c_s [[phi]] [[phi]]^T) + sum_i 2 zeta_i omega_i (M v_i) (M v_i)^T
 
     with tau and c the stages' internal and external damping, c_r and c_s the joints' dashpots, and zeta_i the ratios
     of the unloaded elastic modes v_i, v_i^T M v_i = 1.
@@ -38,15 +38,17 @@ def damping_matrix(operators: Operators) -> Array:
     vehicle, basis, rigid = operators.vehicle, operators.basis, operators.rigid
     if not isinstance(basis, Combined):
         raise TypeError(f"the basis of operators with supports imposed is Combined, found {type(basis).__name__}")
-    inside, outside = (loss.combined(basis.transformation) for loss in losses(vehicle, basis.basis))
-    damping, chain = np.asarray(inside.matrix()), basis.segments
+    inside, outside = (
+        total(tuple(loss.combined(basis.transformation) for loss in each)) for each in losses(vehicle, basis.basis)
+    )
+    damping, chain = np.asarray(inside), basis.segments
     fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
-    for derivative, name in ((0, "shear_damping"), (1, "rotational_damping")):
+    for reading, name in ((DEFLECTION, "shear_damping"), (ROTATION, "rotational_damping")):
         dashpots = np.array([getattr(joint, name) for joint in vehicle.joints])
         there = np.flatnonzero(dashpots)
-        damping = damping + products(basis.jumps([fronts[j] for j in there], derivative), dashpots[there])
+        damping = damping + products(basis.jumps([fronts[j] for j in there], reading), dashpots[there])
     damping[:rigid] = damping[:, :rigid] = 0.0  # rounding: rigid-body motions strain nothing
-    damping = damping + outside.matrix()
+    damping = damping + outside
     damping[rigid:, rigid:] += _modal(vehicle, operators.M[rigid:, rigid:], operators.K0[rigid:, rigid:])
     return np.asarray((damping + damping.T) / 2)
 

@@ -1,4 +1,4 @@
-"""Large vehicles: every segment with the deflection and slope at its front as coordinates of their own.
+"""Large vehicles: every segment with the deflection and rotation at its front as coordinates of their own.
 
 The strain coordinates of `beal.discretisation.legendre` and these states together have sparse matrices. That each
 segment begins where the one before it ends becomes a set of constraints, whose multipliers are the shear forces and
@@ -11,99 +11,170 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 from scipy.sparse import block_array, csc_array, csr_array, vstack
 from scipy.sparse.linalg import SuperLU, splu
 
 from beal.discretisation.assembly import energies, normalised
-from beal.discretisation.basis import Array, Basis, Combined, Rows, segments
+from beal.discretisation.basis import (
+    CURVATURE,
+    DEFLECTION,
+    ROTATION,
+    SHEAR,
+    Array,
+    Basis,
+    Combined,
+    Rows,
+    segments,
+)
 from beal.discretisation.chain import ground_springs, held, jump_scales
 from beal.discretisation.cuts import ALL
 from beal.discretisation.operators import Operators
-from beal.discretisation.polynomials import gauss, integrals
+from beal.discretisation.polynomials import gauss
 from beal.discretisation.samples import sample
-from beal.discretisation.varying import moment_shapes, pieces
-from beal.vehicle.stations import mean
+from beal.discretisation.strains import STRAINS, Strain, orthonormal
+from beal.discretisation.varying import LoadShapes, load_shapes, pieces
 from beal.vehicle.vehicle import Vehicle
 
 
-class LinkedBasis(Basis):
-    """Curvature of degree up to ``order`` on each segment, behind a front of its own.
+@dataclass(frozen=True)
+class _Family:
+    """The coordinates of one strain: on which segments, of what size, in which columns.
 
-    Coordinates: deflections and slopes at the fronts; the jumps of the flexible joints; the polynomials, P_0 of all
+    Parameters
+    ----------
+    strain : Strain
+    there : ndarray of bool, shape (segments,)
+        The segments that have it.
+    first : ndarray of int, shape (segments,)
+        Column of P_0 of each segment that has it.
+    unit_energy : ndarray, shape (segments,)
+    shapes : dict
+        Of the segments of varying stiffness, by number.
+    """
+
+    strain: Strain
+    there: NDArray[np.bool_]
+    first: NDArray[np.intp]
+    unit_energy: Array
+    shapes: dict[int, LoadShapes]
+
+
+class LinkedBasis(Basis):
+    """Strains of degree up to ``order`` on each segment, behind a front of its own.
+
+    Coordinates: deflections and rotations at the fronts; the jumps of the flexible joints; the polynomials, P_0 of all
     segments first, so that a higher order only appends coordinates.
 
     Parameters
     ----------
     vehicle : Vehicle
     order : int
-        Highest degree of the curvature, at least 1.
+        Highest degree of the strains, at least 1.
     """
 
     def __init__(self, vehicle: Vehicle, order: int) -> None:
         self.segments = segments(vehicle, few=ALL)
         self.pieces = pieces(vehicle, self.segments, order)
-        self._shapes = moment_shapes(vehicle, self.segments, self.pieces, order)
         self.quadrature = order + 3
         self._order = order
         count = len(self.segments)
         scales = vehicle.scales
-        # Of deflection and slope: what EI/L^3 and EI/L turn into a unit of energy.
+        # Of deflection and rotation: what EI/L^3 and EI/L turn into a unit of energy.
         self.units = np.array([scales.length / scales.thrust, 1 / (scales.length * scales.thrust)]) ** 0.5
         self._lengths = np.array([segment.length for segment in self.segments])
         stages = np.array([segment.stage for segment in self.segments])
-        stiffness = np.array([mean(stage.bending_stiffness) for stage in vehicle.stages])[stages]
-        self._unit_energy = (self._lengths * stiffness) ** -0.5
         self._jumps = np.zeros((count, 2))  # across the fronts, at a unit of the joints' coordinates
         self._jumps[np.flatnonzero(np.diff(stages)) + 1] = np.array(jump_scales(vehicle)).reshape(-1, 2)
         flexible = self._jumps > 0
         self._jump_columns = 2 * count - 1 + np.cumsum(flexible).reshape(count, 2)
         self.springs = ground_springs(vehicle)
         self._grounds = 2 * count + int(flexible.sum())
-        self._polynomials = self._grounds + len(self.springs)
+        self._families: list[_Family] = []
+        column = self._grounds + len(self.springs)
+        for strain in STRAINS:
+            stiffness = strain.stiffnesses(vehicle, self.segments)
+            there = np.isfinite(stiffness)
+            first = column - 1 + np.cumsum(there)
+            column += int(there.sum())
+            unit_energy = (self._lengths * stiffness) ** -0.5
+            shapes = load_shapes(vehicle, self.segments, self.pieces, order, strain)
+            self._families.append(_Family(strain, there, first, unit_energy, shapes))
+        self._stride = column - self._grounds - len(self.springs)  # columns from one degree to the next
 
     @property
     def size(self) -> int:
-        return self._polynomials + len(self.segments) * (self._order + 1)
+        return self._grounds + len(self.springs) + self._stride * (self._order + 1)
 
-    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
-        return np.asarray(self.stacked([segment], xi, derivative).toarray())
+    def rows(self, segment: int, xi: Array, reading: int) -> Array:
+        return np.asarray(self.stacked([segment], xi, reading).toarray())
 
-    def stacked(self, segments: Sequence[int], xi: Array, derivative: int) -> Rows:
-        index = np.repeat(np.asarray(segments, dtype=np.intp), len(xi))
-        return self._rows(index, np.tile(xi, len(segments)), self._integrated(xi, derivative), derivative)
+    def stacked(self, segments: Sequence[int], xi: Array, reading: int) -> Rows:
+        return self.rows_at(np.repeat(np.asarray(segments, dtype=np.intp), len(xi)), xi, reading)
 
-    def rows_at(self, index: NDArray[np.intp], xi: Array, derivative: int) -> Rows:
-        return self._rows(index, xi, self._integrated(xi, derivative), derivative)
+    def rows_at(self, index: NDArray[np.intp], xi: Array, reading: int) -> Rows:
+        """As of every basis; the xi may be a period of all."""
+        everywhere = np.tile(xi, len(index) // max(len(xi), 1))
+        data = [self._fronts(self._lengths[index], everywhere, reading)]
+        columns = [2 * index[:, None] + np.array([0, 1])]
+        there: list[NDArray[np.bool_]] = [np.ones(columns[0].shape, dtype=bool)]
+        for family in self._families:
+            if (times := family.strain.times.get(reading)) is None or not family.there.any():
+                continue
+            scale = family.unit_energy[index] * (self._lengths[index] / 2) ** times
+            polynomials = orthonormal(self._order, times, xi)
+            values = scale[:, None] * np.tile(polynomials, (len(index) // max(len(xi), 1), 1))
+            for segment in set(index[np.isin(index, list(family.shapes))].tolist()):
+                here = index == segment
+                values[here] = family.shapes[segment].at(everywhere[here], times)
+            data.append(values)
+            columns.append(self._columns(family, index))
+            there.append(np.broadcast_to(family.there[index, None], values.shape))
+        kept = np.hstack(there)
+        ends = np.concatenate(([0], np.cumsum(kept.sum(axis=1))))
+        return csr_array((np.hstack(data)[kept], np.hstack(columns)[kept], ends), (len(index), self.size))
 
-    def at_points(self, segment: int, derivative: int) -> Array:
+    def at_points(self, segment: int, reading: int) -> Array:
         xi = self.pieces[segment].xi if segment in self.pieces else gauss(self.quadrature)[0]
-        front = np.zeros((len(xi), 2))
-        if derivative < 2:
-            front[:, derivative] = self.units[derivative]
-        if derivative == 0:
-            front[:, 1] = self.units[1] * self._lengths[segment] * (1 + xi) / 2
-        shapes = self._shapes.get(segment)
-        return np.hstack((front, shapes.at_points(derivative) if shapes else self._own(segment, xi, derivative)))
+        blocks = [self._fronts(self._lengths[[segment]], xi, reading)]
+        for family in self._families:
+            if not family.there[segment]:
+                continue
+            times = family.strain.times.get(reading)
+            if times is None:
+                blocks.append(np.zeros((len(xi), self._order + 1)))
+            elif segment in family.shapes:
+                blocks.append(family.shapes[segment].at_points(times))
+            else:
+                scale = family.unit_energy[segment] * (self._lengths[segment] / 2) ** times
+                blocks.append(scale * orthonormal(self._order, times, xi))
+        return np.hstack(blocks)
 
     def expanded(self, segment: int, local: Array) -> Rows:
-        columns = np.tile(self._columns(np.array([segment])), (len(local), 1))
+        index = np.array([segment])
+        own = [self._columns(family, index) for family in self._families if family.there[segment]]
+        columns = np.tile(np.hstack((2 * index[:, None] + [0, 1], *own)), (len(local), 1))
         ends = local.shape[1] * np.arange(len(local) + 1)
         return csr_array((local.ravel(), columns.ravel(), ends), (len(local), self.size))
 
-    def _own(self, segment: int, xi: Array, derivative: int) -> Array:
-        scale = self._unit_energy[segment] * (self._lengths[segment] / 2) ** (2 - derivative)
-        return scale * self._integrated(xi, derivative) * np.sqrt(2 * np.arange(self._order + 1) + 1)
+    def _fronts(self, lengths: Array, xi: Array, reading: int) -> Array:
+        """What a unit of the deflection and of the rotation at the front does, shape (len(xi), 2)."""
+        data = np.zeros((len(xi), 2))
+        if reading == DEFLECTION:
+            data[:, 0] = self.units[0]
+            data[:, 1] = self.units[1] * lengths * (1 + xi) / 2
+        elif reading not in (CURVATURE, SHEAR):
+            data[:, 1] = self.units[1]
+        return data
 
-    def _columns(self, index: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Coordinates of the shapes that live on segments, shape (len(index), 2 + order + 1)."""
-        polynomials = self._polynomials + index[:, None] + len(self.segments) * np.arange(self._order + 1)
-        return np.hstack((2 * index[:, None], 2 * index[:, None] + 1, polynomials))
+    def _columns(self, family: _Family, index: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Coordinates of a strain on segments that have it, shape (len(index), order + 1)."""
+        return np.asarray(family.first[index, None] + self._stride * np.arange(self._order + 1))
 
-    def jumps(self, segments: Sequence[int], derivative: int) -> Rows:
+    def jumps(self, segments: Sequence[int], reading: int) -> Rows:
         fronts = np.asarray(segments, dtype=np.intp)
-        columns, values = self._jump_columns[fronts, derivative], self._jumps[fronts, derivative]
+        which = (DEFLECTION, ROTATION).index(reading)
+        columns, values = self._jump_columns[fronts, which], self._jumps[fronts, which]
         flexible = values > 0
         return csr_array((values[flexible], (np.flatnonzero(flexible), columns[flexible])), (len(fronts), self.size))
 
@@ -113,15 +184,18 @@ class LinkedBasis(Basis):
         fronts, before = range(1, count), range(count - 1)
         front, end = np.array([-1.0]), np.array([1.0])
         rows = []
-        for d, unit in enumerate(self.units):
-            jumps = self.jumps(fronts, d)
-            rows.append((self.stacked(fronts, front, d) - self.stacked(before, end, d) - jumps) / unit)
+        units = dict(zip((DEFLECTION, ROTATION), self.units, strict=True))
+        for reading, unit in units.items():
+            jumps = self.jumps(fronts, reading)
+            rows.append((self.stacked(fronts, front, reading) - self.stacked(before, end, reading) - jumps) / unit)
         ends = ((0, front), (count - 1, end))
-        rows += [self.stacked([ends[which][0]], ends[which][1], d) / self.units[d] for which, d in held(vehicle)]
+        for which, reading in held(vehicle):
+            segment, xi = ends[which]
+            rows.append(self.stacked([segment], xi, reading) / units[reading])
         for n, spring in enumerate(self.springs):
             segment, xi = ends[spring.end]
-            moved = self.stacked([segment], xi, spring.derivative) - self.deformations()[[n]]
-            rows.append(moved / self.units[spring.derivative])
+            moved = self.stacked([segment], xi, spring.reading) - self.deformations()[[n]]
+            rows.append(moved / units[spring.reading])
         return vstack(rows, format="csr")
 
     def deformations(self) -> Rows:
@@ -139,29 +213,6 @@ class LinkedBasis(Basis):
         states[:, 0, 1] = [segment.start / last.end / self.units[0] for segment in self.segments]
         states[:, 1, 1] = 1 / last.end / self.units[1]
         return motions
-
-    def _integrated(self, xi: Array, derivative: int) -> Array:
-        return legendre.legvander(xi, self._order + 2) @ integrals(self._order, 2 - derivative)
-
-    def _rows(self, index: NDArray[np.intp], xi: Array, values: Array, derivative: int) -> Rows:
-        """Rows at xi of the segments ``index``; ``values`` holds the polynomials there, or a period of them."""
-        length = self._lengths[index]
-        data = np.zeros((len(index), 2 + self._order + 1))
-        if derivative == 0:
-            data[:, 0] = self.units[0]
-            data[:, 1] = self.units[1] * length * (1 + xi) / 2
-        elif derivative == 1:
-            data[:, 1] = self.units[1]
-        scale = self._unit_energy[index] * (length / 2) ** (2 - derivative)
-        degree = np.arange(self._order + 1)
-        repeated = np.tile(values, (len(index) // max(len(values), 1), 1))
-        data[:, 2:] = scale[:, None] * repeated * np.sqrt(2 * degree + 1)
-        for segment in set(index[np.isin(index, list(self._shapes))].tolist()):
-            here = index == segment
-            data[here, 2:] = self._shapes[segment].at(xi[here], derivative)
-        columns = self._columns(index)
-        ends = data.shape[1] * np.arange(len(index) + 1)
-        return csr_array((data.ravel(), columns.ravel(), ends), (len(index), self.size))
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from beal.discretisation.basis import Array, Basis, segments
+from beal.discretisation.basis import ROTATION, SLOPE, Array, Basis, segments
 from beal.discretisation.joint_modes import JointSign, joint_modes
 from beal.vehicle.vehicle import Vehicle
 
@@ -40,7 +40,8 @@ class ModeBasis(Basis):
     def size(self) -> int:
         return len(self._modes.wavenumbers)
 
-    def rows(self, segment: int, xi: Array, derivative: int) -> Array:
+    def rows(self, segment: int, xi: Array, reading: int) -> Array:
+        derivative = SLOPE if reading == ROTATION else reading
         piece = self.segments[segment]
         local = piece.start + piece.length * (1 + xi) / 2 - (self._split if piece.stage else 0.0)
         return self._modes.evaluate(piece.stage, local / self._length, derivative) / self._length**derivative
@@ -49,6 +50,7 @@ class ModeBasis(Basis):
     def _jumps(self) -> Array:
         return self._modes.jumps
 
-    def jump(self, segment: int, derivative: int) -> Array:
+    def jump(self, segment: int, reading: int) -> Array:
         """Across the joint, from the load in the spring rather than as a small difference."""
+        derivative = SLOPE if reading == ROTATION else reading
         return np.asarray(self._jumps[1 - derivative] / self._length**derivative)

@@ -54,7 +54,7 @@ class Operators:
         stations : array_like, shape (k,)
             In m, from the nose.
         derivative : int
-            0 deflection, 1 slope, 2 curvature.
+            0 deflection, 1 slope, 2 curvature (of a stage that shears, how fast its sections' rotation changes).
         side : {"aft", "forward"}
             Which face is read where a station is that of a joint.
 

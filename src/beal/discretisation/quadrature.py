@@ -46,6 +46,11 @@ class Points:
             found[here] = given[n].at(self.station[here] - self.vehicle.boundaries[n])
         return found
 
+    def finite(self, name: str) -> Array:
+        """The same with 0 in place of an infinite stiffness, against which there is no strain."""
+        found = self.property(name)
+        return np.where(np.isinf(found), 0.0, found)
+
 
 def quadrature(vehicle: Vehicle, chain: Sequence[Segment], count: int, cut: Mapping[int, Pieces]) -> Points:
     """Points that integrate over a chain of segments: ``count`` of Gauss's on each, or those of its pieces."""

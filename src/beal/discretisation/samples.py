@@ -1,12 +1,14 @@
 """The shapes at the points of the integrals, with their weights: what energies are summed from."""
 
 from dataclasses import dataclass, fields
+from functools import partial, reduce
+from operator import add
 
 import numpy as np
 from scipy.sparse import vstack
 
 from beal.discretisation.axial import axial_force, dead_axial_force, has_dead_loads
-from beal.discretisation.basis import Array, Basis, Rows
+from beal.discretisation.basis import CURVATURE, DEFLECTION, ROTATION, SHEAR, SLOPE, Array, Basis, Rows
 from beal.discretisation.polynomials import gauss
 from beal.discretisation.quadrature import Points, quadrature
 from beal.vehicle.stations import values
@@ -34,45 +36,78 @@ class Integral:
         return Integral(self.rows @ transformation, self.weights, right)
 
 
+Integrals = tuple[Integral, ...]
+
+
+def total(integrals: Integrals) -> Rows:
+    """The sum of their matrices."""
+    return reduce(add, (integral.matrix() for integral in integrals))
+
+
 @dataclass(frozen=True)
 class Samples:
-    """The integrals over the vehicle: m phi phi^T, EI phi'' phi''^T n phi' phi'^T, k phi phi^T of a
-    foundation and p phi phi'^T of distributed loads; N phi' phi'^T of the dead ones."""
+    """The integrals over the vehicle that make its matrices.
 
-    mass: Integral
-    bending: Integral
-    axial: Integral
-    foundation: Integral | None = None
-    load: Integral | None = None
-    dead: Integral | None = None
+    Parameters
+    ----------
+    mass : sequence of Integral
+        m phi phi^T, and rho I psi psi^T.
+    elastic : sequence of Integral
+        EI psi' psi'^T, kGA gamma gamma^T, and k phi phi^T of a foundation.
+    axial, dead : sequence of Integral
+        N phi' phi'^T of the thrust's axial force and of the dead loads', and for Haringx - N gamma gamma^T.
+    load : sequence of Integral
+        p phi phi'^T of distributed loads.
+    """
+
+    mass: Integrals
+    elastic: Integrals
+    axial: Integrals
+    dead: Integrals
+    load: Integrals
 
     def combined(self, transformation: Array) -> "Samples":
         given = {field.name: getattr(self, field.name) for field in fields(self)}
-        return Samples(**{name: each and each.combined(transformation) for name, each in given.items()})
+        return Samples(**{name: tuple(each.combined(transformation) for each in of) for name, of in given.items()})
 
 
 def sample(vehicle: Vehicle, basis: Basis) -> Samples:
     """A basis and the vehicle's properties at the points of the integrals."""
     points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
-    integral = _compressed if basis.pieces else _at_points
+    integral = partial(_compressed if basis.pieces else _at_points, basis, points)
+    mass = [integral(DEFLECTION, points.property("mass_per_length"))]
+    if vehicle.turns_inertia:
+        mass.append(integral(ROTATION, points.property("rotary_inertia_per_length")))
+    elastic = [integral(reading, points.finite(name)) for reading, name in _strains(vehicle)]
+    if vehicle.founded:
+        elastic.append(integral(DEFLECTION, points.property("foundation_stiffness")))
+    haringx = vehicle.shears and vehicle.thrust.axial_term == "haringx"
+
+    def pressed(force: Array) -> Integrals:
+        return (integral(SLOPE, force), *([integral(SHEAR, -force)] if haringx else []))
+
+    load = [integral(DEFLECTION, _distributed(vehicle, points.station), SLOPE)] if vehicle.distributed_thrusts else []
     return Samples(
-        mass=integral(basis, points, 0, points.property("mass_per_length")),
-        bending=integral(basis, points, 2, points.property("bending_stiffness")),
-        axial=integral(basis, points, 1, axial_force(vehicle, points.station)),
-        foundation=integral(basis, points, 0, points.property("foundation_stiffness")) if vehicle.founded else None,
-        load=integral(basis, points, 0, _distributed(vehicle, points.station), 1)
-        if vehicle.distributed_thrusts
-        else None,
-        dead=integral(basis, points, 1, dead_axial_force(vehicle, points.station)) if has_dead_loads(vehicle) else None,
+        mass=tuple(mass),
+        elastic=tuple(elastic),
+        axial=pressed(axial_force(vehicle, points.station)),
+        dead=pressed(dead_axial_force(vehicle, points.station)) if has_dead_loads(vehicle) else (),
+        load=tuple(load),
     )
 
 
-def losses(vehicle: Vehicle, basis: Basis) -> tuple[Integral, Integral]:
-    """What the stages dissipate: tau EI phi'' phi''^T inside and c phi phi^T outside."""
+def losses(vehicle: Vehicle, basis: Basis) -> tuple[Integrals, Integrals]:
+    """What the stages dissipate: tau EI psi' psi'^T and tau kGA gamma gamma^T inside, c phi phi^T outside."""
     points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
-    integral = _compressed if basis.pieces else _at_points
-    inside = points.property("internal_damping") * points.property("bending_stiffness")
-    return integral(basis, points, 2, inside), integral(basis, points, 0, points.property("external_damping"))
+    integral = partial(_compressed if basis.pieces else _at_points, basis, points)
+    time = points.property("internal_damping")
+    inside = tuple(integral(reading, time * points.finite(name)) for reading, name in _strains(vehicle))
+    return inside, (integral(DEFLECTION, points.property("external_damping")),)
+
+
+def _strains(vehicle: Vehicle) -> list[tuple[int, str]]:
+    """The strains that the vehicle has, as readings, and the stiffnesses against them."""
+    return [(CURVATURE, "bending_stiffness"), *([(SHEAR, "shear_stiffness")] if vehicle.shears else [])]
 
 
 def _distributed(vehicle: Vehicle, stations: Array) -> Array:
@@ -80,19 +115,19 @@ def _distributed(vehicle: Vehicle, stations: Array) -> Array:
     return np.sum([load.tangency * values(load.value, stations) for load in vehicle.distributed_thrusts], axis=0)
 
 
-def _at_points(basis: Basis, points: Points, derivative: int, density: Array, right: int | None = None) -> Integral:
+def _at_points(basis: Basis, points: Points, reading: int, density: Array, right: int | None = None) -> Integral:
     xi = gauss(basis.quadrature)[0]
-    rows = [None if d is None else basis.stacked(range(len(basis.segments)), xi, d) for d in (derivative, right)]
+    rows = [None if d is None else basis.stacked(range(len(basis.segments)), xi, d) for d in (reading, right)]
     return Integral(rows[0], points.weight * density, rows[1])
 
 
-def _compressed(basis: Basis, points: Points, derivative: int, density: Array, right: int | None = None) -> Integral:
+def _compressed(basis: Basis, points: Points, reading: int, density: Array, right: int | None = None) -> Integral:
     """As many terms for each segment as shapes live there, however many pieces it has."""
     ends = np.searchsorted(points.segment, np.arange(len(basis.segments) + 1))
     weighted = points.weight * density
     rows, weights, rights = [], [], []
     for segment, (a, b) in enumerate(zip(ends, ends[1:], strict=False)):
-        local = basis.at_points(segment, derivative)
+        local = basis.at_points(segment, reading)
         if right is None:
             principal, directions = np.linalg.eigh(local.T @ (local * weighted[a:b, None]))
             rows.append(basis.expanded(segment, directions.T))

@@ -1,8 +1,8 @@
 """Segments along which properties vary: where they are integrated, and shapes that suit them.
 
-The bending moment is smooth where the stiffness has kinks and steps, the curvature is not. On such segments the shapes
-are therefore those whose bending moments are polynomials, phi'' = P_k(x)/EI(x), made orthonormal in energy; of uniform
-stiffness they are the Legendre polynomials of the curvature.
+Bending moment and shear force are smooth where the stiffness has kinks and steps, the strains are not. On such segments
+the shapes are therefore those whose moments or forces are polynomials, psi' = P_k(x)/EI(x), made orthonormal in
+energy; of uniform stiffness they are the Legendre polynomials of the strain.
 """
 
 import math
@@ -14,6 +14,7 @@ from numpy.polynomial import legendre
 
 from beal.discretisation.basis import Array, Segment
 from beal.discretisation.polynomials import gauss, integrals
+from beal.discretisation.strains import STRAINS, Strain
 from beal.vehicle.parts import Stage
 from beal.vehicle.stations import StationTable
 from beal.vehicle.vehicle import Vehicle
@@ -33,7 +34,7 @@ class Pieces:
     start, length : float
         Of the segment, start from the stage's front, in m.
     order : int
-        Degree of the curvature or bending moment.
+        Degree of the strains, or of bending moment and shear force.
     """
 
     def __init__(self, stage: Stage, start: float, length: float, order: int) -> None:
@@ -42,7 +43,9 @@ class Pieces:
         margin = 1e-9 * length
         inner = np.unique(stations[(stations > start + margin) & (stations < end - margin)])
         edges = np.concatenate(([start], inner, [end]))
-        self.edges = _cut_by_ratio(edges, stage.bending_stiffness) - start
+        for stiffness in _tables(stage):
+            edges = _cut_by_ratio(edges, stiffness)
+        self.edges = edges - start
         self.edges[-1] = length
         self.widths = np.diff(self.edges)
         self.length = length
@@ -54,13 +57,14 @@ class Pieces:
         widest = float(self.widths.max()) / self.length
         half_waves = order * math.acos(1 - 2 * min(widest, 1.0)) / math.pi  # of a polynomial, at its ends
         points = min(order + 3, math.ceil(half_waves * math.pi / 2) + SMOOTH) + 1
-        if not isinstance(stage.bending_stiffness, StationTable):
-            return points
         inside = start + self.edges[:-1, None] + self.widths[:, None] * np.array([1e-6, 1 - 1e-6])
-        stiffness = stage.bending_stiffness.at(inside)
-        ratio = max(1 + 1e-9, float((stiffness.max(axis=1) / stiffness.min(axis=1)).max()))
-        pole = (ratio + 1) / (ratio - 1)  # of 1/EI, in half widths of the piece
-        return points + math.ceil(DIGITS / 2 / math.log(pole + math.sqrt(pole**2 - 1)))
+        more = 0
+        for table in _tables(stage):
+            stiffness = table.at(inside)
+            ratio = max(1 + 1e-9, float((stiffness.max(axis=1) / stiffness.min(axis=1)).max()))
+            pole = (ratio + 1) / (ratio - 1)  # of 1/EI, in half widths of the piece
+            more = max(more, math.ceil(DIGITS / 2 / math.log(pole + math.sqrt(pole**2 - 1))))
+        return points + more
 
     @property
     def xi(self) -> Array:
@@ -78,10 +82,13 @@ class Pieces:
         return np.asarray((self.widths[:, None] / 2 * self.weight).ravel())
 
 
-def _cut_by_ratio(edges: Array, stiffness: object) -> Array:
+def _tables(stage: Stage) -> list[StationTable]:
+    """The stage's stiffnesses that vary."""
+    return [stage.tables[strain.stiffness] for strain in STRAINS if strain.stiffness in stage.tables]
+
+
+def _cut_by_ratio(edges: Array, stiffness: StationTable) -> Array:
     """More edges where a linear stiffness changes by more than RATIO, in geometric progression of the stiffness."""
-    if not isinstance(stiffness, StationTable):
-        return edges
     near = 1e-6 * np.diff(edges)
     growth = stiffness.at(edges[1:] - near) / stiffness.at(edges[:-1] + near)
     parts = np.ceil(np.abs(np.log(growth)) / math.log(RATIO)).astype(int)
@@ -92,8 +99,8 @@ def _cut_by_ratio(edges: Array, stiffness: object) -> Array:
     return np.sort(np.concatenate(more))
 
 
-class MomentShapes:
-    """Deflections of a segment whose bending moments are polynomials.
+class LoadShapes:
+    """Strains of a segment whose bending moments, or shear forces, are polynomials, and their integrals.
 
     Parameters
     ----------
@@ -102,54 +109,52 @@ class MomentShapes:
     start : float
         Of the segment, from the stage's front.
     order : int
-        Highest degree of the bending moment.
+        Highest degree of the polynomials.
     """
 
     def __init__(self, pieces: Pieces, stiffness: StationTable, start: float, order: int) -> None:
+        self.order = order
         self._pieces = pieces
         points = len(pieces.t)
-        bending = stiffness.at(start + pieces.x)
-        moments = legendre.legvander(2 * pieces.x / pieces.length - 1, order)
-        curvature = moments / bending[:, None]
-        gram = moments.T @ (curvature * pieces.weights[:, None])
-        curvature = np.linalg.solve(np.linalg.cholesky(gram), curvature.T).T.reshape(-1, points, order + 1)
+        loads = legendre.legvander(2 * pieces.x / pieces.length - 1, order)
+        strain = loads / stiffness.at(start + pieces.x)[:, None]
+        gram = loads.T @ (strain * pieces.weights[:, None])
+        strain = np.linalg.solve(np.linalg.cholesky(gram), strain.T).T.reshape(-1, points, order + 1)
         # On each piece, the polynomial through the Gauss points.
         degree = np.arange(points)
         to_series = (_integrated(points - 1, 0, pieces.t) * pieces.weight[:, None]).T * (degree[:, None] + 0.5)
-        self._series = to_series @ curvature
+        self._series = to_series @ strain
         half = pieces.widths[:, None] / 2
-        turn = half * 2 * self._series[:, 0]
-        slope = np.vstack((np.zeros(order + 1), np.cumsum(turn, axis=0)))
+        once = np.vstack((np.zeros(order + 1), np.cumsum(half * 2 * self._series[:, 0], axis=0)))
         end = _integrated(points - 1, 2, np.ones(1))
-        rise = 2 * half * slope[:-1] + half**2 * (end @ self._series)[:, 0]
-        self._slope = slope[:-1]
-        self._deflection = np.vstack((np.zeros(order + 1), np.cumsum(rise, axis=0)))[:-1]
+        rise = 2 * half * once[:-1] + half**2 * (end @ self._series)[:, 0]
+        self._once = once[:-1]  # the integrals at the fronts of the pieces
+        self._twice = np.vstack((np.zeros(order + 1), np.cumsum(rise, axis=0)))[:-1]
 
-    def at_points(self, derivative: int) -> Array:
+    def at_points(self, times: int) -> Array:
         """The same as ``at`` the Gauss points of the pieces."""
         pieces = self._pieces
         half = pieces.widths[:, None, None] / 2
-        polynomials = _integrated(len(pieces.t) - 1, 2 - derivative, pieces.t)
-        found = (polynomials @ self._series) * half ** (2 - derivative)
-        if derivative == 1:
-            found += self._slope[:, None]
-        elif derivative == 0:
-            found += self._deflection[:, None] + (1 + pieces.t[:, None]) * half * self._slope[:, None]
+        found = (_integrated(len(pieces.t) - 1, times, pieces.t) @ self._series) * half**times
+        if times == 1:
+            found += self._once[:, None]
+        elif times == 2:
+            found += self._twice[:, None] + (1 + pieces.t[:, None]) * half * self._once[:, None]
         return np.asarray(found.reshape(-1, found.shape[2]))
 
-    def at(self, xi: Array, derivative: int) -> Array:
-        """Deflections, slopes or curvatures at xi in [-1, 1] of the segment, shape (len(xi), order + 1)."""
+    def at(self, xi: Array, times: int) -> Array:
+        """Strains integrated ``times`` times, at xi in [-1, 1] of the segment, shape (len(xi), order + 1)."""
         pieces = self._pieces
         x = (1 + xi) / 2 * pieces.length
         piece = np.clip(np.searchsorted(pieces.edges, x, side="right") - 1, 0, len(pieces.widths) - 1)
         half = pieces.widths[piece] / 2
         t = (x - pieces.edges[piece]) / half - 1
-        polynomials = _integrated(len(pieces.t) - 1, 2 - derivative, t)
-        found = np.einsum("kg,kgn->kn", polynomials, self._series[piece]) * half[:, None] ** (2 - derivative)
-        if derivative == 1:
-            found += self._slope[piece]
-        elif derivative == 0:
-            found += self._deflection[piece] + ((1 + t) * half)[:, None] * self._slope[piece]
+        polynomials = _integrated(len(pieces.t) - 1, times, t)
+        found = np.einsum("kg,kgn->kn", polynomials, self._series[piece]) * half[:, None] ** times
+        if times == 1:
+            found += self._once[piece]
+        elif times == 2:
+            found += self._twice[piece] + ((1 + t) * half)[:, None] * self._once[piece]
         return np.asarray(found)
 
 
@@ -162,16 +167,16 @@ def pieces(vehicle: Vehicle, chain: Sequence[Segment], order: int) -> dict[int, 
     }
 
 
-def moment_shapes(
-    vehicle: Vehicle, chain: Sequence[Segment], cut: dict[int, Pieces], order: int
-) -> dict[int, MomentShapes]:
-    """The shapes of the segments of varying stiffness, by the segments' number."""
+def load_shapes(
+    vehicle: Vehicle, chain: Sequence[Segment], cut: dict[int, Pieces], order: int, strain: Strain
+) -> dict[int, LoadShapes]:
+    """The shapes of the segments whose stiffness against a strain varies, by the segments' number."""
     found = {}
     for index, parts in cut.items():
         segment = chain[index]
-        stiffness = vehicle.stages[segment.stage].bending_stiffness
-        if isinstance(stiffness, StationTable):
-            found[index] = MomentShapes(parts, stiffness, segment.start - vehicle.boundaries[segment.stage], order)
+        stiffness = vehicle.stages[segment.stage].tables.get(strain.stiffness)
+        if stiffness is not None:
+            found[index] = LoadShapes(parts, stiffness, segment.start - vehicle.boundaries[segment.stage], order)
     return found
 
 

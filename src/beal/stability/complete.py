@@ -1,25 +1,33 @@
 """Every critical thrust of a reduced pencil at once, without a step in thrust that could pass one over.
 
-With A(P) = A0 + P A1 similar to M^-1 K(P), the operator X -> A^2 X - 2 A X A^T + X (A^T)^2 maps antisymmetric
-matrices to antisymmetric ones and has the eigenvalues (W_i - W_j)^2, i < j. It is singular exactly where two roots
-coincide, and quadratic in P: all such thrusts are the eigenvalues of one quadratic eigenvalue problem, a form of the
-two-parameter problem of Jarlebring, Kvaal & Michiels (2011). Divergence is the linear problem det(K0 + P K1) = 0.
+With A = M^-1 K(P), the operator X -> A^2 X - 2 A X A^T + X (A^T)^2 maps antisymmetric matrices to antisymmetric ones
+and has the eigenvalues (W_i - W_j)^2, i < j. It is singular exactly where two roots coincide. Applied in two steps and
+freed of the inverses of M,
+
+    M X K^T - K X M = M Y M        X antisymmetric
+    M Y K^T - K Y M = 0            Y symmetric
+
+is linear in K and so in the thrust: all such thrusts are the eigenvalues of one matrix, a form of the two-parameter
+problem of Jarlebring, Kvaal & Michiels (2011). Coordinates without mass are allowed; their pairs with each other, which
+meet no equation, are left out. Divergence is the linear problem det(K0 + P K1) = 0.
 """
 
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Literal
 
 import numpy as np
 import scipy.linalg
 
 from beal.stability.double_root import coalescence, divergence
+from beal.stability.pairs import Pairs, matrix, pairs
 from beal.stability.pencil import Array, Pencil
 from beal.stability.ridge import Kind, meeting_pair
 from beal.stability.zero_roots import ZERO, rigid_body_root
 
 NEARLY_REAL = 3e-2  # relative imaginary part of a thrust up to which a real critical point is looked for beside it
 SAME = 1e-9
+REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
+MASSLESS = 1e-10  # share of the largest inertia below which a coordinate only follows the others
 NEXT = 3e-2  # relative distance up to which a polished thrust is that of its guess
 ALL_BUT_ZERO = 1e-3  # |W| of two roots that meet, below this share of the shift, beside a zero root
 
@@ -100,36 +108,38 @@ def events(pencil: Pencil, limit: float, watched: int) -> list[Event]:
 
 def _double_roots(pencil: Pencil, limit: float) -> Array:
     """Real parts of all nearly real thrusts in (0, limit] at which two roots coincide."""
-    root = np.sqrt(np.diag(pencil.M))
-    A0, A1 = pencil.stiffness(0.0) / np.outer(root, root), limit * pencil.K1 / np.outer(root, root)
-    n = len(root)
-    pairs = np.array(list(combinations(range(n), 2)))
-    i, j = pairs.T
-    size = np.sqrt(
-        np.abs(np.diag(A0)[i]) + np.abs(np.diag(A0)[j]) + pencil.shift
-    )  # grades the problem like the low roots
-    select = np.zeros((n * n, len(pairs)))
-    select[i * n + j, np.arange(len(pairs))] = 1 / size
-    select[j * n + i, np.arange(len(pairs))] = -1 / size
-    unit = np.eye(n)
+    inertia = pencil.shift * np.diag(pencil.M)
+    heavy = inertia > MASSLESS * inertia.max()
+    M, size = np.diag(np.where(heavy, inertia, 0.0)), np.maximum(inertia, inertia[heavy].min())
+    of_X, of_Y = pairs(heavy, diagonal=False), pairs(heavy, diagonal=True)
 
-    def operator(left: Array, right: Array) -> Array:
-        """Half of the symmetric bilinear form behind the square of X -> left X - X right^T."""
-        square = left @ right + right @ left
-        return 0.5 * (np.kron(square, unit) + np.kron(unit, square)) - np.kron(left, right) - np.kron(right, left)
+    def operator(K: Array, M_Y_M: Array) -> Array:
+        """Both lines on both unknowns; the thrust changes K alone."""
+        fed = np.zeros((len(of_X[0]),) * 2)
+        return np.block(
+            [
+                [matrix(of_Y, of_X, -1, (M, K), (-K, M)), -M_Y_M],
+                [fed, matrix(of_X, of_Y, 1, (M, K), (-K, M))],
+            ]
+        )
 
-    Q = [select.T @ matrix @ select / 2 for matrix in (operator(A0, A0), 2 * operator(A0, A1), operator(A1, A1))]
-    return nearly_real(_quadratic_eigenvalues(*Q), limit)
+    def scales(entries: Pairs) -> tuple[Array, Array]:
+        """Of the entries of u_i u_j^T for M-normalised modes, and of W_i - W_j, as the coordinates have them."""
+        a, b = (size[index] for index in entries)
+        return 1 / np.sqrt(a * b), 1 / a + 1 / b
+
+    (X, X_apart), (Y, Y_apart) = scales(of_X), scales(of_Y)
+    scale = np.outer(np.concatenate((Y / Y_apart, X / X_apart**2)), np.concatenate((X, Y * Y_apart)))
+    masses = np.diag(M)[of_Y[0]] * np.diag(M)[of_Y[1]]
+    at = scale * operator(pencil.stiffness(REFERENCE * limit), np.diag(masses))
+    change = scale * operator(limit * pencil.K1, np.zeros((len(masses),) * 2))
+    return inverse_roots(at, change, limit)
 
 
-def _quadratic_eigenvalues(Q0: Array, Q1: Array, Q2: Array) -> Array:
-    """All finite p with det(Q0 + p Q1 + p^2 Q2) = 0, through the companion form for 1/p."""
-    n = len(Q0)
-    zero, unit = np.zeros((n, n)), np.eye(n)
-    left = np.block([[-Q1, -Q2], [unit, zero]])
-    right = np.block([[Q0, zero], [zero, unit]])
-    alpha, beta = scipy.linalg.eigvals(left, right, homogeneous_eigvals=True)
-    return np.asarray(beta[np.abs(alpha) > 1e-12 * np.abs(beta)] / alpha[np.abs(alpha) > 1e-12 * np.abs(beta)])
+def inverse_roots(at: Array, change: Array, limit: float) -> Array:
+    """Real parts of all nearly real thrusts P in (0, limit] with ``at + (P/limit - REFERENCE) change`` singular."""
+    inverse = np.linalg.eigvals(np.linalg.solve(at, -change)).astype(complex)
+    return nearly_real(REFERENCE + 1 / inverse[np.abs(inverse) > SAME], limit)
 
 
 def zero_roots(pencil: Pencil, limit: float) -> Array:

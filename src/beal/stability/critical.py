@@ -18,7 +18,7 @@ from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
-from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined, settled
+from beal.stability.refine import default_tolerance, first_order, ladder, refined, settled
 from beal.stability.ridge import REAL, Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
 from beal.stability.zero_roots import FIRST, ZERO, mechanism, rigid_body_root
@@ -155,7 +155,7 @@ def critical_thrust(
             large = Reduction(vehicle, formulation)
             task = replace(task, watched=large.watched)
             return _solve(task, large.operators, method, lambda found: refined(found, large.points(found), tolerance))
-        operators = discretise(vehicle, formulation, basis, FIRST_ORDER[basis])
+        operators = discretise(vehicle, formulation, basis, first_order(vehicle, basis))
         points = partial(ladder, vehicle, formulation, basis)
         return _solve(task, operators, method, lambda found: refined(found, points(found), tolerance))
 
@@ -190,7 +190,8 @@ def critical_events(
                 large = Reduction(operators, formulation)
                 operators = large.operators
             else:
-                operators = discretise(operators, formulation, order=modes if formulation in RITZ else 12)
+                order = modes if formulation in RITZ else max(12, first_order(operators, "legendre"))
+                operators = discretise(operators, formulation, order=order)
         task = _task(operators.vehicle, max_thrust, formulation)
         full = pencil(operators)
         watched = large.watched if large else task.watched

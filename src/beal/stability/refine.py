@@ -15,11 +15,17 @@ from beal.stability.zero_roots import rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 FIRST_ORDER = {"legendre": 8, "hermite": 8}
+SHEARED_ORDER = {"legendre": 16, "hermite": 8}  # shear waves are shorter than those of bending
 LAST_ORDER = {"legendre": 26, "hermite": 64}
 TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
 MODAL_TOLERANCE = 1e-8  # where damping ratios reach up to modes that no discretisation resolves
 FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
 SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
+
+
+def first_order(vehicle: Vehicle, basis: BasisName) -> int:
+    """Order that resolves the watched modes well enough to find their instabilities."""
+    return (SHEARED_ORDER if vehicle.shears else FIRST_ORDER)[basis]
 
 
 def default_tolerance(vehicle: Vehicle, basis: BasisName) -> float:
@@ -79,7 +85,7 @@ def ladder(
 ) -> Iterator[CriticalPoint]:
     """The critical point in finer and finer discretisations, each started from the one before."""
     thrust, W = found.point.thrust, found.point.W
-    order = FIRST_ORDER[basis]
+    order = first_order(vehicle, basis)
     coarse = None
     while order <= LAST_ORDER[basis]:
         full = pencil(discretise(vehicle, formulation, basis, order))

@@ -22,12 +22,13 @@ import scipy.linalg
 from numpy.polynomial import chebyshev
 
 from beal.discretisation import Formulation, discretise
+from beal.discretisation.basis import DEFLECTION, ROTATION
+from beal.discretisation.chain import beam_behind
 from beal.discretisation.operators import Operators
 from beal.stability.kernels import compiled_kernels
 from beal.stability.limit import waves
 from beal.stability.pencil import Array, pencil, reduced
 from beal.vehicle.paths import with_values
-from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 TANGENCY = "thrust.tangency"
@@ -85,9 +86,7 @@ def tabulated(vehicle: Vehicle, path: str) -> bool:
 
 def reference(vehicle: Vehicle, path: str) -> float:
     """k_ref of a spring: the stiffness of the stage behind the joint against the same motion."""
-    joint, name = _spring(path)
-    power = 1 if name == "rotational_stiffness" else 3
-    return mean(vehicle.stages[joint + 1].bending_stiffness) / vehicle.length**power
+    return beam_behind(vehicle, *_spring(path))
 
 
 def weights(vehicle: Vehicle, paths: Sequence[str], values: Array) -> Array:
@@ -146,11 +145,12 @@ def panel(
     return Panel(thrusts, _grid(edges), nodes, series, edges, patches, coarser, THRUST_DEGREE)
 
 
-def _spring(path: str) -> tuple[int, str]:
+def _spring(path: str) -> tuple[int, int]:
+    """Number of the joint and what jumps there."""
     match = _SPRING.fullmatch(path)
     if match is None:
         raise ValueError(f"{path} is not a spring of a joint")
-    return int(match[1]), match[2]
+    return int(match[1]), ROTATION if match[2] == "rotational_stiffness" else DEFLECTION
 
 
 def _tangencies(paths: Sequence[str]) -> list[dict[str, float]]:
@@ -180,8 +180,8 @@ def _patches(operators: Operators, springs: Sequence[str], ends: tuple[float, fl
     fronts = {segment.stage: index for index, segment in reversed(list(enumerate(basis.segments)))}
     rows = np.empty((len(full.M), len(springs)))
     for column, path in enumerate(springs):
-        joint, name = _spring(path)
-        jump = basis.jump(fronts[joint + 1], 1 if name == "rotational_stiffness" else 0)[operators.rigid :]
+        joint, reading = _spring(path)
+        jump = basis.jump(fronts[joint + 1], reading)[operators.rigid :]
         rows[:, column] = jump * math.sqrt(reference(vehicle, path))
     x_P, x_W = (np.cos(np.pi * (np.arange(n + 1) + 0.5) / (n + 1)) for n in (THRUST_DEGREE, W_DEGREE))
     thrusts = ends[0] + (ends[1] - ends[0]) * (1 + x_P) / 2

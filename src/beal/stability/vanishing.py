@@ -18,7 +18,7 @@ from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_m
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
 from beal.stability.pencil import Array, Pencil, pencil, reduced
-from beal.stability.refine import FIRST_ORDER, default_tolerance, ladder, refined
+from beal.stability.refine import default_tolerance, first_order, ladder, refined
 from beal.stability.ridge import Instability, Kind
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
@@ -84,7 +84,7 @@ def vanishing_damping_limit(
         return undamped
     with one_thread():
         limit = elastic.critical_thrust or elastic.searched_to
-        operators = discretise(vehicle, formulation, order=FIRST_ORDER["legendre"])
+        operators = discretise(vehicle, formulation, order=first_order(vehicle, "legendre"))
         plain = reduced(pencil(replace(operators, C=None)), elastic.watched_modes + COMPLETE_SPARE)
         small = reduced(pencil(operators), elastic.watched_modes + COMPLETE_SPARE)
         found = _first_fed(small, limit, elastic.watched_modes)

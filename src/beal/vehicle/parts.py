@@ -16,6 +16,8 @@ from beal.vehicle.stations import (
     LoadPerLength,
     MassPerLength,
     Property,
+    RotaryInertiaPerLength,
+    ShearStiffness,
     StationTable,
     form,
     misfit,
@@ -25,11 +27,21 @@ LARGEST = sys.float_info.max
 ShearAxis = Literal["mean", "forward", "aft", "inertial"]
 HeldEnd = Literal["free", "clamped", "pinned", "sliding"]
 HELD = {"free": (0.0, 0.0), "clamped": (math.inf, math.inf), "pinned": (math.inf, 0.0), "sliding": (0.0, math.inf)}
-ALONG = ("mass_per_length", "bending_stiffness", "foundation_stiffness")  # what varies along a stage
+ALONG = (  # what varies along a stage
+    "mass_per_length",
+    "bending_stiffness",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
+    "foundation_stiffness",
+)
 
 
 class Stage(Part):
-    """An Euler-Bernoulli beam, one stage of the vehicle or a piece of one.
+    """A beam, one stage of the vehicle or a piece of one.
+
+    Without a shear stiffness its sections stay normal to the axis (Euler-Bernoulli); with one they turn against it by
+    the shear strain y' - psi, psi being the section's rotation (Timoshenko). With an infinite bending stiffness the
+    stage is rigid but for shear, and may be massless.
 
     Every property along the stage is a number or a table ``{x = [...], value = [...]}``: x counts from the front of the
     stage to its end, values are linear in between, and an x given twice is a step.
@@ -42,8 +54,13 @@ class Stage(Part):
         In kg/m.
     bending_stiffness : float or table
         EI, in N m^2.
+    shear_stiffness : float or table
+        kGA, in N; infinite unless given.
+    rotary_inertia_per_length : float or table
+        rho I, in kg m, which turns with the sections.
     internal_damping : float
-        Kelvin-Voigt time constant, in s: the bending moment is EI (y'' + internal_damping * dy''/dt).
+        Kelvin-Voigt time constant, in s: the bending moment is EI (psi' + internal_damping * dpsi'/dt), the shear
+        force likewise.
     external_damping : float
         Transverse force per length and rate, in N s/m^2.
     foundation_stiffness : float or table
@@ -60,6 +77,8 @@ class Stage(Part):
     length: Annotated[FiniteFloat, si("m"), POSITIVE]
     mass_per_length: MassPerLength
     bending_stiffness: BendingStiffness
+    shear_stiffness: ShearStiffness = math.inf
+    rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
     internal_damping: Annotated[FiniteFloat, si("s"), NOT_NEGATIVE] = 0.0
     external_damping: Annotated[FiniteFloat, si("N*s/m^2"), NOT_NEGATIVE] = 0.0
     foundation_stiffness: FoundationStiffness = 0.0
@@ -69,6 +88,9 @@ class Stage(Part):
         for name, table in self.tables.items():
             if wrong := table.misfit(self.length):
                 raise misfit((name, "x"), wrong, table.x[-1])
+        massless = 0 in self.mass_per_length.value if isinstance(self.mass_per_length, StationTable) else not self.mass
+        if massless and self.bending_stiffness != math.inf:
+            raise misfit(("mass_per_length",), "must be positive where the stage bends, found 0", 0.0)
         return self
 
     @cached_property
@@ -188,6 +210,12 @@ class Thrust(Part):
         ``moving``: the line of action goes through the station and turns with the tangent by ``tangency``. ``fixed``:
         it stays the axis of the undeformed vehicle, as on a rigid plate under a fixed jet (Reut's column); the moment
         about the station is then ``tangency`` times that of the whole offset.
+    along : {"slope", "section"}
+        What the thrust turns with where the stage shears: the tangent of the axis, or the normal of its cross-section
+        (an engine bolted to a bulkhead). At a bare free end the two coincide.
+    axial_term : {"engesser", "haringx"}
+        Direction of the axial force in a section that shears: along the tangent of the axis (Engesser), the choice of
+        most finite elements, or along the normal of the section (Haringx), as in springs and rubber bearings.
     axial_force : {"inertia", "constant"}, optional
         ``inertia``: N(x) = P times the share of the mass forward of x (a vehicle in flight); ``constant``: N = P
         forward of where it acts (the nose takes the reaction). By default the first for a free-free vehicle, the
@@ -200,6 +228,8 @@ class Thrust(Part):
     scale: Annotated[FiniteFloat, si(""), NOT_NEGATIVE] = 1.0
     station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE] | None = None
     line: Literal["moving", "fixed"] = "moving"
+    along: Literal["slope", "section"] = "slope"
+    axial_term: Literal["engesser", "haringx"] = "engesser"
     axial_force: Literal["inertia", "constant"] | None = None
     nominal: Annotated[FiniteFloat, si("N"), POSITIVE] | None = None
 

@@ -119,6 +119,18 @@ class StiffnessTable(StationTable):
     value: tuple[Annotated[FiniteFloat, si("N*m^2"), POSITIVE], ...]
 
 
+class ShearTable(StationTable):
+    """Shear stiffness over stations, in N."""
+
+    value: tuple[Annotated[FiniteFloat, si("N"), POSITIVE], ...]
+
+
+class RotaryInertiaTable(StationTable):
+    """Rotary inertia per length over stations, in kg m."""
+
+    value: tuple[Annotated[FiniteFloat, si("kg*m"), NOT_NEGATIVE], ...]
+
+
 class FoundationTable(StationTable):
     """Stiffness of a Winkler foundation over stations, in N/m^2."""
 
@@ -137,11 +149,19 @@ def form(value: Any) -> str:
 
 
 MassPerLength = Annotated[
-    Annotated[FiniteFloat, si("kg/m"), POSITIVE, Tag(PLAIN)] | Annotated[MassTable, Tag(TABLE)],
+    Annotated[FiniteFloat, si("kg/m"), NOT_NEGATIVE, Tag(PLAIN)] | Annotated[MassTable, Tag(TABLE)],
     Discriminator(form),
 ]
 BendingStiffness = Annotated[
-    Annotated[FiniteFloat, si("N*m^2"), POSITIVE, Tag(PLAIN)] | Annotated[StiffnessTable, Tag(TABLE)],
+    Annotated[float, si("N*m^2"), POSITIVE, Tag(PLAIN)] | Annotated[StiffnessTable, Tag(TABLE)],
+    Discriminator(form),
+]
+ShearStiffness = Annotated[
+    Annotated[float, si("N"), POSITIVE, Tag(PLAIN)] | Annotated[ShearTable, Tag(TABLE)],
+    Discriminator(form),
+]
+RotaryInertiaPerLength = Annotated[
+    Annotated[FiniteFloat, si("kg*m"), NOT_NEGATIVE, Tag(PLAIN)] | Annotated[RotaryInertiaTable, Tag(TABLE)],
     Discriminator(form),
 ]
 FoundationStiffness = Annotated[

@@ -20,7 +20,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
     dict
         Quantities in SI units, or non-dimensional where the vehicle is. Under ``nondimensional`` the groups of Irani &
         Kavianipour (2009), Eq. (6), and the reference quantities that they are formed with: the whole length and the
-        first stage's properties. An infinite stiffness is the text ``"rigid"``.
+        properties of the first stage that bends. An infinite stiffness is the text ``"rigid"``.
 
     Examples
     --------
@@ -41,6 +41,8 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "support": {"nose": _end(vehicle.support.nose), "tail": _end(vehicle.support.tail)},
         "axial_force": vehicle.axial_force,
         "tangency": vehicle.thrust.tangency,
+        "along": vehicle.thrust.along,
+        "axial_term": vehicle.thrust.axial_term,
         "thrust_station": vehicle.length if vehicle.thrust.station is None else vehicle.thrust.station,
         "thrust_share": vehicle.thrust.scale,
         "nominal_thrust": vehicle.thrust.nominal,
@@ -66,6 +68,8 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
             "mass": stage.mass,
             "mass_per_length": _property(stage.mass_per_length),
             "bending_stiffness": _property(stage.bending_stiffness),
+            "shear_stiffness": _property(stage.shear_stiffness),
+            "rotary_inertia_per_length": _property(stage.rotary_inertia_per_length),
             "internal_damping": stage.internal_damping,
             "external_damping": stage.external_damping,
             "foundation_stiffness": _property(stage.foundation_stiffness),
@@ -74,14 +78,19 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
     ]
 
 
-def _property(given: Property) -> float | dict[str, Any]:
-    return given.model_dump() if isinstance(given, StationTable) else given
+def _property(given: Property) -> float | str | dict[str, Any]:
+    return given.model_dump() if isinstance(given, StationTable) else _finite(given)
+
+
+def _finite(stiffness: float) -> float | str:
+    """JSON has no infinity."""
+    return "rigid" if math.isinf(stiffness) else stiffness
 
 
 def _end(end: str | ElasticEnd) -> str | dict[str, float | str]:
     if isinstance(end, str):
         return end
-    return {name: "rigid" if math.isinf(value) else value for name, value in end.model_dump().items()}
+    return {name: _finite(value) for name, value in end.model_dump().items()}
 
 
 def _joints(vehicle: Vehicle) -> list[dict[str, Any]]:
@@ -115,9 +124,8 @@ def _groups(vehicle: Vehicle) -> dict[str, Any]:
 
 
 def _springs(joint: Joint, rotational: float, shear: float) -> dict[str, float | str]:
-    """Stiffnesses over their scales; JSON has no infinity."""
-    stiffness = {
-        "rotational_stiffness": joint.rotational_stiffness / rotational,
-        "shear_stiffness": joint.shear_stiffness / shear,
+    """Stiffnesses over their scales."""
+    return {
+        "rotational_stiffness": _finite(joint.rotational_stiffness / rotational),
+        "shear_stiffness": _finite(joint.shear_stiffness / shear),
     }
-    return {name: "rigid" if math.isinf(value) else value for name, value in stiffness.items()}

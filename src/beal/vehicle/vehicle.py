@@ -32,8 +32,8 @@ from beal.vehicle.stations import StationTable, mean
 class Scales:
     """Reference length [m], mass per length [kg/m] and bending stiffness [N m^2] of the non-dimensional form.
 
-    Irani & Kavianipour (2009), Eq. (6): the whole length, and the first stage's properties, their mean
-    where they vary.
+    Irani & Kavianipour (2009), Eq. (6): the whole length, and the properties of the first stage that bends, their mean
+    where they vary. Where none does, the whole mass over the length, and what shears or the springs are worth.
     """
 
     length: float
@@ -154,10 +154,11 @@ class Vehicle(Part):
         """Pitch inertia of the rigid vehicle about its centre of mass, in kg m^2."""
         centre = self.centre_of_mass
         inertia = sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
+        inertia += sum(mean(stage.rotary_inertia_per_length) * stage.length for stage in self.stages)
         for stage, x in zip(self.stages, self.boundaries, strict=False):
             mass, first, second = stage.mass_moments
-            own = first / mass  # centre of mass, from the stage's front
-            inertia += second - mass * own**2 + mass * (x + own - centre) ** 2
+            front = x - centre
+            inertia += second + 2 * front * first + front**2 * mass
         return inertia
 
     @property
@@ -169,6 +170,16 @@ class Vehicle(Part):
     def founded(self) -> bool:
         """Whether an elastic foundation holds any stage."""
         return any(mean(stage.foundation_stiffness) for stage in self.stages)
+
+    @cached_property
+    def shears(self) -> bool:
+        """Whether any stage has a finite shear stiffness."""
+        return any(mean(stage.shear_stiffness) < math.inf for stage in self.stages)
+
+    @cached_property
+    def turns_inertia(self) -> bool:
+        """Whether any stage has rotary inertia."""
+        return any(mean(stage.rotary_inertia_per_length) for stage in self.stages)
 
     @property
     def axial_force(self) -> Literal["inertia", "constant"]:
@@ -196,8 +207,20 @@ class Vehicle(Part):
     @property
     def scales(self) -> Scales:
         """Reference quantities of the non-dimensional form."""
-        first = self.stages[0]
-        return Scales(self.length, mean(first.mass_per_length), mean(first.bending_stiffness))
+        for stage in self.stages:
+            if math.isfinite(stiffness := mean(stage.bending_stiffness)):
+                return Scales(self.length, mean(stage.mass_per_length), stiffness)
+        return Scales(self.length, self.mass / self.length, next(self._other_stiffnesses(), math.nan))
+
+    def _other_stiffnesses(self) -> Iterator[float]:
+        """What is neither rigid nor absent beside bending, in N m^2."""
+        length = self.length
+        given = [mean(stage.shear_stiffness) * length**2 for stage in self.stages]
+        given += [joint.rotational_stiffness * length for joint in self.joints]
+        given += [rotation * length for _, rotation in self.support.stiffness]
+        given += [joint.shear_stiffness * length**3 for joint in self.joints]
+        given += [translation * length**3 for translation, _ in self.support.stiffness]
+        return (stiffness for stiffness in given if 0 < stiffness < math.inf)
 
     def _unsuited_loads(self) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
         for index, load in enumerate(self.distributed_thrusts):
@@ -205,6 +228,8 @@ class Vehicle(Part):
                 yield ("distributed_thrust", index, "value", "x"), wrong, load.value.x[-1]
         if not self.thrust.scale and not self.distributed_thrusts:
             yield ("thrust", "scale"), "must be positive where there is no distributed thrust, found 0", 0.0
+        if math.isnan(self.scales.bending_stiffness):
+            yield ("stage",), "some stage must bend or shear, or some joint or end be elastic, found a rigid body", None
 
     def _in_range(self) -> bool:
         try:

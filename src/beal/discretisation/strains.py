@@ -1,0 +1,76 @@
+"""The strains that a segment may have: the curvature of bending, and the shear strain beside it.
+
+A section turns by psi, the axis by y' = psi + gamma; bending strains by psi' and shear by gamma. Without shear psi is
+y' (Euler-Bernoulli); with it the two strains are independent (Timoshenko), so nothing locks however stiff the shear.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from beal.discretisation.basis import CURVATURE, DEFLECTION, ROTATION, SHEAR, SLOPE, Array, Segment
+from beal.discretisation.polynomials import integrals
+from beal.vehicle.stations import mean
+from beal.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class Strain:
+    """A strain of a segment.
+
+    Parameters
+    ----------
+    stiffness : str
+        Name of the stage's stiffness against it.
+    times : mapping of reading to int
+        How often the strain is integrated from the segment's front for what it adds to a reading.
+    """
+
+    stiffness: Literal["bending_stiffness", "shear_stiffness"]
+    times: Mapping[int, int]
+
+    def stiffnesses(self, vehicle: Vehicle, chain: Sequence[Segment]) -> Array:
+        """Mean stiffness of the stage of each segment, infinite where there is no such strain."""
+        of_stages = np.array([mean(getattr(stage, self.stiffness)) for stage in vehicle.stages])
+        return np.asarray(of_stages[[segment.stage for segment in chain]])
+
+
+BENDING = Strain("bending_stiffness", {DEFLECTION: 2, SLOPE: 1, ROTATION: 1, CURVATURE: 0})
+SHEARING = Strain("shear_stiffness", {DEFLECTION: 1, SLOPE: 0, SHEAR: 0})
+STRAINS = (BENDING, SHEARING)
+
+
+@dataclass(frozen=True)
+class UniformShapes:
+    """A strain as Legendre polynomials, orthonormal in energy, on a segment of one stiffness.
+
+    Parameters
+    ----------
+    order : int
+    length, stiffness : float
+    """
+
+    order: int
+    length: float
+    stiffness: float
+
+    def at(self, xi: Array, times: int) -> Array:
+        """Strains integrated ``times`` times, at xi in [-1, 1] of the segment, shape (len(xi), order + 1)."""
+        unit_energy = (self.length * self.stiffness) ** -0.5 * (self.length / 2) ** times
+        return np.asarray(_orthonormal(self.order, times, tuple(xi)) * unit_energy)
+
+
+@lru_cache(maxsize=256)
+def _orthonormal(order: int, times: int, xi: tuple[float, ...]) -> Array:
+    """The same few points come again for every segment."""
+    return orthonormal(order, times, np.array(xi))
+
+
+def orthonormal(order: int, times: int, xi: Array) -> Array:
+    """sqrt(2 k + 1) P_k, k = 0..order, integrated from -1 ``times`` times, shape (len(xi), order + 1)."""
+    degree = np.arange(order + 1)
+    return legendre.legvander(xi, order + 2) @ integrals(order, times) * np.sqrt(2 * degree + 1)
