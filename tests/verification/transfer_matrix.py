@@ -1,13 +1,15 @@
 """An exact solver of its own: the beam's first-order equations, integrated from nose to tail.
 
-The state is (w, theta, M, V): deflection, slope, bending moment and the transverse force V, of a direction fixed in
-space, that the aft part exerts on the forward one. With N the axial compression and motions exp(lambda t)
+The state is (w, psi, M, V): deflection, rotation of the section, bending moment and the transverse force V, of a
+direction fixed in space, that the aft part exerts on the forward one. With N the axial compression, S the shear
+stiffness and motions exp(lambda t)
 
-    w' = theta,   EI (1 + tau lambda) theta' = M,   M' = -V - N theta,
-    V' = (m lambda^2 + c lambda + k) w + tangency p theta        p = -N' a distributed load
+    w' = (psi + V/S) / (1 - N/S) (Engesser) or psi + (V + N psi)/S (Haringx),   EI psi' = M,
+    M' = -V - N w' + rho I lambda^2 psi,   V' = (m lambda^2 + c lambda + k) w + tangency p w',
 
-The determinant F(P, lambda) of the conditions at both ends vanishes at a root. Of beal only its description of the
-vehicle is used. Each segment without steps is integrated by Gauss collocation of order 16.
+EI and S times 1 + tau lambda, p = -N' a distributed load. The determinant F(P, lambda) of the conditions at both ends
+vanishes at a root. Of beal only its description of the vehicle is used. Each segment without steps is integrated by
+Gauss collocation of order 16.
 """
 
 import math
@@ -17,7 +19,7 @@ from functools import cache
 import numpy as np
 from scipy.special import roots_legendre
 
-from beal.vehicle import Vehicle
+from beal.vehicle import Stage, Vehicle
 from beal.vehicle.stations import StationTable, values
 
 STAGES, PANELS = 8, 12  # collocation points in a panel, panels in a segment
@@ -57,17 +59,20 @@ class TransferMatrix:
     def __call__(self, thrust: complex, root: complex) -> complex:
         """F(P, lambda)."""
         state = np.eye(4, dtype=complex)
+        nose = self._end(0, state, -state[3], -state[2])
         for lump in self._lumps(0.0):
             state = self._lump(lump, root) @ state
         for front, back in zip(self.stations, self.stations[1:], strict=False):
             for matrix in self._panels(front, back, thrust, root):
                 state = matrix @ state
+            inside = np.array(back * (1 - 1e-15))  # forward of lumps there
+            turned = self._slope(inside, thrust, root) @ state
             if back in self.vehicle.boundaries[1:-1]:
                 joint = self.vehicle.joints[self.vehicle.boundaries.index(back) - 1]
-                state = self._joint(joint, thrust * self._compression(back - 1e-15), root) @ state
+                state = self._joint(joint, thrust * self._compression(inside), root) @ state
             for lump in self._lumps(back):
                 state = self._lump(lump, root) @ state
-        return complex(np.linalg.det(np.vstack((self._nose(), self._tail(thrust) @ state))))
+        return complex(np.linalg.det(np.vstack((nose, self._tail(thrust, state, turned)))))
 
     def _lumps(self, station: float) -> Iterator:
         return (lump for lump in self.vehicle.point_masses if lump.station == station)
@@ -77,7 +82,7 @@ class TransferMatrix:
         vehicle, x = self.vehicle, np.asarray(x)
         if vehicle.axial_force == "constant":
             loads = [(load.value, vehicle.length) for load in vehicle.distributed_thrusts]
-            return vehicle.thrust.scale + sum(integral(p, end) - integral(p, x) for p, end in loads)
+            return vehicle.thrust.scale + 0 * x + sum(integral(p, end) - integral(p, x) for p, end in loads)
         forward = sum(lump.mass * (lump.station <= x) for lump in vehicle.point_masses) + np.zeros(np.shape(x))
         for start, stage in zip(vehicle.boundaries, vehicle.stages, strict=False):
             forward = forward + integral(stage.mass_per_length, np.clip(x - start, 0.0, stage.length))
@@ -94,21 +99,36 @@ class TransferMatrix:
         inside = np.linalg.solve(system, start).reshape(PANELS, STAGES, 4, 4)
         return np.eye(4) + np.einsum("j,pjkl,pjlm->pkm", b, equations, inside)
 
+    def _stage(self, x: np.ndarray) -> tuple[Stage, np.ndarray]:
+        """The stage that holds stations, and their distances from its front."""
+        index = self.vehicle.stage_at(float(x.mean()))
+        return self.vehicle.stages[index], x - self.vehicle.boundaries[index]
+
+    def _slope(self, x: np.ndarray, thrust: complex, root: complex) -> np.ndarray:
+        """w' at stations, as a row that acts on the state, shape (..., 4)."""
+        stage, y = self._stage(x)
+        sheared = 1 / values(stage.shear_stiffness, y) / (1 + stage.internal_damping * self.damping * root)
+        N = thrust * self._compression(x)
+        row = np.zeros((*x.shape, 4), dtype=complex)
+        engesser = self.vehicle.thrust.axial_term == "engesser"
+        row[..., 1] = 1 / (1 - N * sheared) if engesser else 1 + N * sheared
+        row[..., 3] = sheared / (1 - N * sheared) if engesser else sheared
+        return row
+
     def _equations(self, x: np.ndarray, thrust: complex, root: complex) -> np.ndarray:
         """Matrices of the first-order equations at stations, shape (..., 4, 4)."""
-        vehicle = self.vehicle
-        index = vehicle.stage_at(float(x.mean()))
-        stage, y = vehicle.stages[index], x - vehicle.boundaries[index]
-        N = thrust * self._compression(x)
-        turning = thrust * sum(load.tangency * values(load.value, x) for load in vehicle.distributed_thrusts)
-        rate = self.damping * root
+        stage, y = self._stage(x)
+        slope, rate = self._slope(x, thrust, root), self.damping * root
+        turning = sum(load.tangency * values(load.value, x) for load in self.vehicle.distributed_thrusts) + 0 * x
         E = np.zeros((*x.shape, 4, 4), dtype=complex)
-        E[..., 0, 1] = 1.0
-        E[..., 1, 2] = 1 / (values(stage.bending_stiffness, y) * (1 + stage.internal_damping * rate))
-        E[..., 2, 1], E[..., 2, 3] = -N, -1.0
-        E[..., 3, 0] = values(stage.mass_per_length, y) * root**2 + values(stage.foundation_stiffness, y)
+        E[..., 0, :] = slope
+        E[..., 1, 2] = 1 / values(stage.bending_stiffness, y) / (1 + stage.internal_damping * rate)
+        E[..., 2, :] = -thrust * self._compression(x)[..., None] * slope
+        E[..., 2, 1] += values(stage.rotary_inertia_per_length, y) * root**2
+        E[..., 2, 3] -= 1.0
+        E[..., 3, :] = thrust * turning[..., None] * slope
+        E[..., 3, 0] += values(stage.mass_per_length, y) * root**2 + values(stage.foundation_stiffness, y)
         E[..., 3, 0] += stage.external_damping * rate
-        E[..., 3, 1] = turning
         return E
 
     def _joint(self, joint, N: complex, root: complex) -> np.ndarray:
@@ -129,21 +149,18 @@ class TransferMatrix:
         jump[3, 0], jump[2, 1] = lump.mass * root**2, lump.rotary_inertia * root**2
         return jump
 
-    def _nose(self) -> np.ndarray:
-        translation, rotation = self.vehicle.support.stiffness[0]
-        return np.array([held([translation, 0, 0, -1]), held([0, rotation, -1, 0])])
+    def _end(self, end: int, state: np.ndarray, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
+        """Conditions on the springs of an end, or on what they hold."""
+        springs = zip(self.vehicle.support.stiffness[end], state[:2], (force, moment), strict=True)
+        return np.array([moved if math.isinf(k) else k * moved + load for k, moved, load in springs])
 
-    def _tail(self, thrust: complex) -> np.ndarray:
-        translation, rotation = self.vehicle.support.stiffness[1]
-        P = thrust * self.vehicle.thrust.scale * self.vehicle.thrust.tangency
-        if self.vehicle.thrust.line == "fixed":
-            return np.array([held([translation, 0, 0, 1]), held([P, rotation, 1, 0])])
-        return np.array([held([translation, P, 0, 1]), held([0, rotation, 1, 0])])
-
-
-def held(row: list[complex]) -> list[complex]:
-    """A condition on a spring; of an infinite one the motion is zero."""
-    return [float(math.isinf(abs(item))) for item in row] if any(math.isinf(abs(item)) for item in row) else row
+    def _tail(self, thrust: complex, state: np.ndarray, slope: np.ndarray) -> np.ndarray:
+        """Conditions under the thrust, which goes with the slope inside of a lump at the tail."""
+        given = self.vehicle.thrust
+        P = thrust * given.scale * given.tangency
+        if given.line == "fixed":
+            return self._end(1, state, state[3], state[2] + P * state[0])
+        return self._end(1, state, state[3] + P * (slope if given.along == "slope" else state[1]), state[2])
 
 
 def integral(given: float | StationTable, x: np.ndarray) -> np.ndarray:

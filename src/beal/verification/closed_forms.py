@@ -128,3 +128,31 @@ def subtangential_divergence(tangency: float) -> float:
     5.2924105965
     """
     return math.acos(-tangency / (1 - tangency)) ** 2
+
+
+def ziegler_flutter(mass_ratio: float) -> tuple[float, float]:
+    """Thrust and angular frequency at which Ziegler's pendulum flutters without damping.
+
+    (5 + mu)/2 - sqrt(mu) and mu^(-1/4), where W^2 mu - W (5 + mu - 2 P) + 1 = 0 has a double root.
+
+    Examples
+    --------
+    >>> round(ziegler_flutter(2.0)[0], 9)  # Ziegler (1952): 7/2 - sqrt(2)
+    2.085786438
+    """
+    return (5 + mass_ratio) / 2 - math.sqrt(mass_ratio), mass_ratio**-0.25
+
+
+def herrmann_jong(first: float, second: float) -> tuple[float, float]:
+    """Thrust and angular frequency at which Ziegler's pendulum flutters with dashpots, its mass ratio being two.
+
+    (4 b^2 + 33 b + 4)/(2 (b + 1)(b + 6)) + first second/2, b = first/second (Herrmann & Jong, 1965).
+
+    Examples
+    --------
+    >>> round(28 * herrmann_jong(1e-9, 1e-9)[0], 9)  # 41/28 in the limit
+    41.0
+    """
+    limit = 4 * first**2 + 33 * first * second + 4 * second**2
+    limit /= 2 * (first + second) * (first + 6 * second)
+    return limit + first * second / 2, math.sqrt((first + second) / (first + 6 * second))

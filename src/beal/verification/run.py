@@ -3,10 +3,11 @@
 from collections.abc import Callable
 
 from beal.errors import ModelError
-from beal.verification import becks, columns, damped, joints, missiles
+from beal.verification import becks, columns, damped, joints, missiles, pendulum, timoshenko
 from beal.verification.case import Case, Row
 
-CASES: tuple[Case, ...] = (*becks.CASES, *columns.CASES, *missiles.CASES, *joints.CASES, *damped.CASES)
+FAMILIES = (becks, columns, pendulum, missiles, joints, timoshenko, damped)
+CASES: tuple[Case, ...] = tuple(case for family in FAMILIES for case in family.CASES)
 
 Progress = Callable[[int, int], None]
 

@@ -11,9 +11,12 @@ from beal.vehicle.catalog.beck import (
 )
 from beal.vehicle.catalog.columns import euler, greenhill, hauger, leipholz, pflueger, reut
 from beal.vehicle.catalog.missiles import beal, mladenov_sugiyama, park_mote, tsto
+from beal.vehicle.catalog.pendulum import ziegler
+from beal.vehicle.catalog.timoshenko import beal_timoshenko, beck_timoshenko
 
 __all__ = [
     "beal",
+    "beal_timoshenko",
     "beck",
     "beck_cracked",
     "beck_damped",
@@ -21,6 +24,7 @@ __all__ = [
     "beck_on_springs",
     "beck_subtangential",
     "beck_tapered",
+    "beck_timoshenko",
     "euler",
     "greenhill",
     "hauger",
@@ -30,4 +34,5 @@ __all__ = [
     "pflueger",
     "reut",
     "tsto",
+    "ziegler",
 ]
