@@ -125,12 +125,8 @@ class Row:
 def counted(rows: Sequence[Row]) -> str:
     """How many rows there are and how many agree, in a sentence."""
     count = Counter(row.verdict for row in rows)
-    parts = (
-        f"{count['agrees']} agree",
-        f"{count['differs']} differ",
-        f"{count['no published value']} have no published",
-    )
-    return f"{len(rows)} values: {', '.join(parts)} counterpart."
+    agree, differ, alone = (count[verdict] for verdict in ("agrees", "differs", "no published value"))
+    return f"{len(rows)} values: {agree} agree, {differ} differ, {alone} have no published counterpart."
 
 
 @dataclass(frozen=True)

@@ -94,13 +94,14 @@ def suffix(formulation: Formulation) -> str:
 def _compared(
     found: CriticalThrust, second: tuple[float, float], peers: list[CriticalThrust], note: str = ""
 ) -> dict[str, Measured]:
-    """Thrust and frequency beside their second values; what finer discretisations change counts as error."""
+    """Thrust and frequency beside their second values; what peers move is part of the error."""
     thrust, omega = _point(found, found.kind)
     moved = np.abs(np.array([_point(peer, found.kind) for peer in peers]) - (thrust, omega)).max(axis=0).tolist()
-    error = max(found.error_estimate or 0.0, moved[0])
-    measured = {f"{found.kind} thrust{note}": Measured(thrust, error, second[0])}
+    estimate = found.error_estimate or 0.0
+    measured = {f"{found.kind} thrust{note}": Measured(thrust, estimate + moved[0], second[0])}
     if found.kind == "flutter":
-        measured[f"flutter frequency{note}"] = Measured(omega, SAMPLED * moved[1] + ROUNDING * omega, second[1])
+        error = SAMPLED * moved[1] + omega * (estimate / thrust + ROUNDING)
+        measured[f"flutter frequency{note}"] = Measured(omega, error, second[1])
     return measured
 
 
