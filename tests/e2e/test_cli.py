@@ -16,8 +16,9 @@ import xarray
 from beal.cli.output import digits, emit, new_file, quantity
 from beal.discretisation import FORMULATIONS
 from beal.errors import ModelError
+from beal.interop.files import load
 from beal.vehicle import Thrust, catalog
-from beal.vehicle.file import load, loads
+from beal.vehicle.file import loads
 
 COMMANDS = ["check", "modes", "critical", "curve", "map", "response", "reproduce", "verify", "convert", "example"]
 HEAVY = {"numpy", "scipy", "pydantic", "xarray", "zarr", "matplotlib", "pint"}
@@ -379,3 +380,15 @@ def test_critical_tells_the_load_without_damping_and_the_limit_of_vanishing_damp
     beside = [found[name]["critical_thrust"] for name in ("undamped", "vanishing_damping")]
     assert [found["critical_thrust"], *beside] == pytest.approx([10.96611165947, 20.0509536190, 10.9388493456])
     assert found["events"][0]["modes"] == [1, 1]
+
+
+def test_critical_says_where_only_damping_bears_the_dead_loads(beal, result_of, written):
+    model = written(
+        'units = "nondimensional"\nsupport.nose = "clamped"\n[[stage]]\nlength = 1\nmass_per_length = 1\n'
+        "bending_stiffness = 1\nexternal_damping = 10\n[[axial_load]]\nstation = 1\nforce = 21\ntangency = 1\n"
+    )
+    assert "without its damping: its dead loads alone make it unstable" in beal("critical", model).stdout
+    found = result_of("critical", model)
+    assert found["critical_thrust"] == pytest.approx(3.26885935, rel=1e-8)
+    assert found["undamped"] is None
+    assert found["vanishing_damping"] is None

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from beal.vehicle.parts import Joint, PointMass, Stage, Support, Thrust
+from beal.vehicle.parts import Damping, Joint, PointMass, Stage, Support, Thrust
 from beal.vehicle.vehicle import Vehicle
 
 AXES = ("mean", "forward", "aft", "inertial")
@@ -120,3 +120,21 @@ def random_support(rng: np.random.Generator) -> Support:
     """Any of the usual pairs of ends."""
     nose, tail = SUPPORTS[rng.integers(len(SUPPORTS))]
     return Support(nose=nose, tail=tail)
+
+
+def with_random_damping(rng: np.random.Generator, vehicle: Vehicle) -> Vehicle:
+    """The vehicle with losses inside its stages, and around them, in its joints and of its modes, each there or not."""
+
+    def some(lowest: float, highest: float) -> float:
+        return float(10 ** rng.uniform(lowest, highest)) if rng.random() < 0.7 else 0.0
+
+    stages = [
+        s.model_copy(update={"internal_damping": 10 ** rng.uniform(-4, -2), "external_damping": some(-1, 1)})
+        for s in vehicle.stages
+    ]
+    joints = [
+        j.model_copy(update={"rotational_damping": some(-3, 0), "shear_damping": some(-3, 0)}) for j in vehicle.joints
+    ]
+    ratios = tuple(rng.uniform(0.005, 0.03, size=2).tolist()) if rng.random() < 0.5 else ()
+    parts = {"stages": tuple(stages), "joints": tuple(joints), "damping": Damping(ratios=ratios)}
+    return vehicle.model_copy(update=parts)

@@ -7,7 +7,8 @@ import re
 import pytest
 
 from beal.errors import ModelError
-from beal.vehicle import Force, Joint, PointMass, Sensor, Stage, Table, Thrust, Vehicle, catalog, dumps, load, loads
+from beal.interop.files import load
+from beal.vehicle import Force, Joint, PointMass, Sensor, Stage, Table, Thrust, Vehicle, catalog, dumps, loads
 from beal.vehicle.file import LARGEST_FILE
 
 TWO_STAGES = """

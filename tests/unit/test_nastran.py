@@ -126,6 +126,12 @@ def test_a_file_that_cannot_be_included_is_refused(refusal, name):
     assert refusal(f"{DECK}INCLUDE '{name}'\n")
 
 
+def test_files_that_are_too_large_together_are_refused(refusal, tmp_path):
+    (tmp_path / "half.bdf").write_text("$ nothing\n" * 300_000)
+    message = refusal(DECK + "INCLUDE 'half.bdf'\nINCLUDE 'half.bdf'\n")
+    assert "half.bdf: is larger than 5 MB with what was read before it" in message
+
+
 @pytest.mark.parametrize("axis", "xyz")
 def test_the_stick_may_lie_along_any_axis(vehicle_of, axis):
     turn = {"x": "{0},0.,0.", "y": "0.,{0},0.", "z": "0.,0.,{0}"}[axis]
@@ -293,15 +299,14 @@ REFUSED = {
     "a shell": (DECK + "CQUAD4,60,1,1,2,3,4\n", ["CQUAD4 60", "is not read"]),
     "a rigid bar": (DECK + "RBE3,60,,1,123456\n", ["RBE3 60", "is not read"]),
     "a tie along the stick": (DECK + "RBE2,60,1,123456,3\n", ["RBE2 60", "ties grids 1 and 3"]),
-    "a spring to ground": (DECK + "CELAS2,60,5.,1,2\n", ["CELAS2 60", "ground"]),
-    "turned axes": (DECK + "CORD2R,5,,0.,0.,0.,1.,0.,0.,+\n+,0.,1.,0.\n", ["CORD2R 5", "basic axes"]),
+    "a spring to ground inside": (DECK + "CELAS2,60,5.,2,2\n", ["CELAS2 60", "stands on the ground"]),
+    "turned axes": (
+        DECK.replace("GRID,2,", "GRID,2,5") + "CORD2R,5,,0.,0.,0.,1.,0.,0.,+\n+,0.,1.,0.\n",
+        ["GRID 2", "uses the coordinate system 5", "basic axes"],
+    ),
     "a held grid inside": (DECK + "SPC1,1,2,2\n", ["GRID 2", "only the ends"]),
     "a bad number": (DECK.replace("2.,0.,0.", "2x,0.,0."), ["line 2, GRID 2", "field 4", "'2x'"]),
     "a number too large": (DECK.replace("2.,0.,0.", "2.+999,0.,0."), ["GRID 2", "must be a number"]),
-    "a tapered beam": (
-        DECK.replace("PBAR,1,1,2.,3.,4.,,.5", "PBEAM,1,1,2.,3.,4.,,,.5,+\n+,,,,,,,,,+\n+,YES,1.,3."),
-        ["PBEAM 1", "tapered"],
-    ),
     "an unknown section": (DECK.replace("PBAR,1,1,2.,3.,4.,,.5", "PBARL,1,1,,HAT,,,,,+\n+,1."), ["PBARL 1", "HAT"]),
     "a number twice": (DECK + "GRID,2,,3.,0.,0.\n", ["line 9, GRID 2", "number of another card (line 2)"]),
     "a cut deck": (f"BEGIN BULK\n{DECK}", ["ENDDATA", "cut off"]),
@@ -331,9 +336,12 @@ def test_all_problems_are_reported_at_once(refusal):
     assert [part for part in ("GRID 2", "MAT1 1", "CQUAD4 60", "problems") if part not in message] == []
 
 
-def test_a_thousand_problems_are_not_all_shown(refusal):
-    message = refusal(DECK + "".join(f"CQUAD4,{n},1\n" for n in range(100, 1100)))
-    assert message.endswith("and 980 more problems")
+def test_a_thousand_problems_are_told_by_their_kinds(refusal):
+    message = refusal(DECK + "".join(f"CQUAD4,{n},1\n" for n in range(100, 1100)) + "MPC,7,1,1,1.\n")
+    assert "line 9, CQUAD4 100 and 1000 more: is not read" in message
+    many = refusal(DECK + "".join(f"GRID,{n},,0.,.{n},0.\nCBAR,{n},1,1,{n},0.,1.,0.\n" for n in range(100, 400)))
+    assert len(many.splitlines()) == 202
+    assert many.endswith("more kinds of problems")
 
 
 @pytest.mark.parametrize(
@@ -407,6 +415,10 @@ def test_comments_that_do_not_fit_the_cards_are_refused(refusal):
     assert "must be a list of 2 tables" in refusal("$ beal: [[stage]]\n$ beal: name = 'a'\n" + DECK)
     assert "not valid TOML" in refusal("$ beal: [[stage\n" + DECK)
     assert "thrust.colour" in refusal("$ beal: [thrust]\n$ beal: colour = 1\n" + DECK)
+
+
+def test_a_nondimensional_deck_takes_no_units(refusal):
+    assert "do not suit a deck that says it is nondimensional" in refusal(nastran_text(catalog.beck()), force_unit="kN")
 
 
 def test_a_deck_without_bars_is_not_written():

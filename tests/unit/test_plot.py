@@ -32,17 +32,17 @@ def labels(ax):
     return sorted(text.get_text() for text in ax.texts)
 
 
-def test_a_joint_breaks_the_line_of_a_mode_shape(ax):
+def test_a_joint_breaks_the_line_of_a_deflection(ax):
     operators = discretise(catalog.tsto(0.2, 3000.0, 300.0))
-    plot.mode_shapes(spectrum(operators, 0.0, 1), operators, ax)
+    plot.deflections(spectrum(operators, 0.0, 1), operators, ax)
     forward, aft = (line for line in ax.lines if len(line.get_xdata()) > 2)
     assert forward.get_xdata()[-1] == aft.get_xdata()[0] == pytest.approx(0.2)
     assert abs(forward.get_ydata()[-1] - aft.get_ydata()[0]) > 0.05
 
 
-def test_mode_shapes_are_scaled_to_one(ax):
+def test_deflections_are_scaled_to_one(ax):
     operators = discretise(catalog.tsto(0.2, 3000.0, 3000.0))
-    plot.mode_shapes(spectrum(operators, 0.0, 3), operators, ax)
+    plot.deflections(spectrum(operators, 0.0, 3), operators, ax)
     heights = [abs(line.get_ydata()).max() for line in ax.lines if len(line.get_xdata()) > 2]
     assert max(heights) == pytest.approx(1.0)
 
@@ -101,6 +101,19 @@ def test_a_uniform_map_has_no_border(ax):
 def test_maps_have_logarithmic_axes_with_units(ax):
     plot.stability_map(chart(1, 1, 2), ax, colorbar=False)
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
+
+
+@pytest.mark.parametrize(
+    ("units", "labels"),
+    [
+        ("nondimensional", ["rotational stiffness $k_r L/EI$", "critical thrust $P L^2/EI$"]),
+        ("SI", ["rotational stiffness $k_r$ (N m/rad)", "critical thrust P (N)"]),
+    ],
+)
+def test_a_map_is_labelled_in_the_units_of_its_vehicle(ax, units, labels):
+    found = chart(1, 1, 2).rename(k="joint[0].rotational_stiffness").assign_attrs(units=units)
+    plot.stability_map(found, ax)
+    assert [ax.get_xlabel(), ax.figure.axes[1].get_ylabel()] == labels
 
 
 @pytest.mark.parametrize("quantity", ["displacement", "rate", "slope"])

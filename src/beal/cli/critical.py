@@ -6,15 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.options import AsJson, Formulation, Model
+from beal.cli.figures import curve_figure, named, new_figure
+from beal.cli.options import AsJson, Figure, Formulation, Model
 from beal.cli.output import emit, quantity, show_table
 
 if TYPE_CHECKING:
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust
+    from beal.stability.curve import ThrustCurve
     from beal.vehicle.vehicle import Vehicle
 
-
+DRAWN, POINTS = 1.3, 151  # thrusts of a figure: over the critical one, and their number
+FEWEST, MOST = 4, 14  # modes in a figure
 BESIDE = {"undamped": "without its damping", "vanishing_damping": "in the limit of vanishing damping"}
 
 
@@ -25,39 +28,63 @@ def critical(
     formulation: Formulation = "objective",
     size: Annotated[int | None, typer.Option("--modes", metavar="N", help="Size of the Ritz formulations.")] = None,
     complete: Annotated[bool, typer.Option("--complete", help="By one eigenvalue problem, without a search.")] = False,
+    figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
+    from beal.errors import ModelError
     from beal.interop.files import load
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.vanishing import vanishing_damping_limit
 
     vehicle = load(model)
-    found = critical_thrust(
-        vehicle,
-        max_thrust,
-        formulation,  # type: ignore[arg-type]  # checked there
-        modes=size,
-        method="complete" if complete else "fast",
-    )
-    events = critical_events(vehicle, max_thrust, formulation, size) if every else []  # type: ignore[arg-type]
-    beside: dict[str, CriticalThrust] = {}
+    with new_figure(figure, as_json) as draw:
+        found = critical_thrust(
+            vehicle,
+            max_thrust,
+            formulation,  # type: ignore[arg-type]  # checked there
+            modes=size,
+            method="complete" if complete else "fast",
+        )
+        events = critical_events(vehicle, max_thrust, formulation, size) if every else []  # type: ignore[arg-type]
+        draw(lambda: curve_figure(vehicle, _curve(vehicle, found, size, every), found, events))
+    beside: dict[str, CriticalThrust | None] = {}
     if vehicle.damped:
-        beside["undamped"] = critical_thrust(vehicle.undamped, max_thrust, formulation)  # type: ignore[arg-type]
-        beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
+        try:
+            beside["undamped"] = critical_thrust(vehicle.undamped, max_thrust, formulation)  # type: ignore[arg-type]
+            beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
+        except ModelError:  # the damping is what bears the dead loads: all else was checked above
+            beside = dict.fromkeys(BESIDE)
     if as_json:
         listed = {"events": [_event(event) for event in events]} if every else {}
-        others = {name: asdict(other) for name, other in beside.items()}
-        emit({**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **others, **listed})
+        others = {name: other and asdict(other) for name, other in beside.items()}
+        emit(
+            {**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **others, **listed, **named(figure)}
+        )
         return
     print(_verdict(vehicle, found))
     for name, other in beside.items():
-        print(f"{BESIDE[name]}: {_instability(vehicle, other.elastic or other)}")
+        verdict = _instability(vehicle, other.elastic or other) if other else "its dead loads alone make it unstable"
+        print(f"{BESIDE[name]}: {verdict}")
     print(_searched(vehicle, found))
     if convention := _convention(vehicle, formulation):
         print(convention)
     if every:
         _show_events(vehicle, events)
+
+
+def _curve(vehicle: "Vehicle", found: "CriticalThrust", size: int | None, every: bool) -> "ThrustCurve":
+    """The modes that meet, and those below, to a little beyond the critical thrust or over all that was searched."""
+    from beal.discretisation.build import discretise
+    from beal.stability.curve import thrust_curve
+
+    shown = found.elastic or found
+    to = found.searched_to if every or not shown.critical_thrust else DRAWN * shown.critical_thrust
+    count = min(max(FEWEST, *(shown.modes or (0,))), size or MOST)
+    formulation: Any = found.formulation
+    return thrust_curve(
+        discretise(vehicle, formulation, order=size) if size else vehicle, to, POINTS, count, formulation
+    )
 
 
 def _relative(vehicle: "Vehicle", found: "CriticalThrust") -> dict[str, float | None]:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from beal.cli.options import AsJson
+from beal.cli.figures import map_figure, named, new_figure
+from beal.cli.options import AsJson, Figure
 from beal.cli.output import check_folder, emit, make_folder, note
 from beal.cli.progress import progress_bar
 from beal.errors import ModelError
@@ -37,6 +38,7 @@ def map_study(
         float | None,
         typer.Option("--refine", metavar="WIDTH", help="Resolve borders to this share of each axis, such as 0.001."),
     ] = None,
+    figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
     """Critical thrust, kind, modes, frequency and error over a grid of parameters."""
@@ -46,16 +48,24 @@ def map_study(
     from beal.study.map import run_study
 
     task = load_study(study)
+    if figure and (len(task.shape) != 2 or min(task.shape) < 2):
+        shape = " x ".join(map(str, task.shape))
+        raise ModelError(f"--figure: draws maps over two axes of more than one value each, found {shape}")
     try:
-        with _cluster(scheduler, workers) as executor, progress_bar() as progress:
+        with (
+            new_figure(figure, as_json) as draw,
+            _cluster(scheduler, workers) as executor,
+            progress_bar() as progress,
+        ):
             how = None if scheduler else workers, lambda done, total: progress("points", done, total), executor
             borders = {"refined": _refined(task, refine, output, resume, *how)} if refine is not None else {}
             found = run_study(task, output, resume or refine is not None, *how)
+            draw(lambda: map_figure(output, refined=refine is not None))
     except KeyboardInterrupt:
         where = (f" --scheduler {scheduler}" if scheduler else "") + (f" --refine {refine}" if refine else "")
         note(f"interrupted; beal map {study} -o {output}{where} --resume goes on with it")
         raise
-    data = {"file": output, **found.named(), **borders}
+    data = {"file": output, **found.named(), **borders, **named(figure)}
     if as_json:
         emit(data)
         return

@@ -6,7 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from beal.cli.options import AsJson, Model
+from beal.cli.figures import named, new_figure, vehicle_figure
+from beal.cli.options import AsJson, Figure, Model
 from beal.cli.output import cell, emit, new_file, show_table
 from beal.errors import ModelError
 
@@ -40,20 +41,22 @@ OF_STAGES = {"shear_stiffness": "N"}  # where joints have the same name for anot
 EXAMPLES = ("beck", "beal", "pflueger", "tsto")
 
 
-def check(model: Model, as_json: AsJson = False) -> None:
+def check(model: Model, figure: Figure = None, as_json: AsJson = False) -> None:
     """Show the resolved model, or every error in it."""
     from beal.interop.files import imported
     from beal.vehicle.summary import summary
 
     try:
-        found = imported(model)
-        resolved = summary(found.vehicle)
+        with new_figure(figure, as_json) as draw:
+            found = imported(model)
+            resolved = summary(found.vehicle)
+            draw(lambda: vehicle_figure(found.vehicle))
     except ModelError as error:
         if as_json:
             emit({"errors": [{"path": path, "message": message} for path, message in error.problems]})
         raise
     if as_json:
-        emit({**resolved, "notes": found.notes, "ignored": found.ignored})
+        emit({**resolved, "notes": found.notes, "ignored": found.ignored, **named(figure)})
         return
     _show(resolved)
     for title, lines in (("how the file was read", found.notes), ("left out or simplified", found.ignored)):

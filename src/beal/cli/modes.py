@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.options import AsJson, Formulation, Model
+from beal.cli.figures import modes_figure, named, new_figure
+from beal.cli.options import AsJson, Figure, Formulation, Model
 from beal.cli.output import digits, emit, new_result, note, show_table
 from beal.errors import ModelError
 
@@ -26,18 +27,26 @@ def modes(
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="Write the mode shapes there: CSV, .uff, .nc or .mat."),
     ] = None,
+    figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
     """Frequencies and growth rates of the lowest elastic modes at a thrust."""
+    from beal.discretisation.build import discretise
     from beal.interop.files import load
+    from beal.interop.results import mode_shapes
     from beal.stability.modes import converged_modes
+    from beal.stability.spectrum import spectrum
 
     vehicle = load(model)
-    with new_result(output) as write:
+    with new_figure(figure, as_json) as draw, new_result(output) as write:
         found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
-        if output:
-            shapes = _shapes(vehicle, found.thrust, count, formulation)
-            write(_columns(shapes), lambda: shapes)
+        if output or figure:
+            operators = discretise(vehicle, formulation)  # type: ignore[arg-type]  # checked before
+            shapes = spectrum(operators, found.thrust, count)
+            draw(lambda: modes_figure(shapes, operators))
+            if output:
+                dataset = mode_shapes(shapes, operators)
+                write(_columns(dataset), lambda: dataset)
     order = found.angular_frequency.argsort(kind="stable")
     omega, growth = found.angular_frequency[order], found.growth_rate[order] + 0.0  # no -0
     si = vehicle.units == "SI"
@@ -51,6 +60,7 @@ def modes(
         "formulation": formulation,
         "units": vehicle.units,
         **({"file": str(output)} if output else {}),
+        **named(figure),
     }
     if as_json:
         emit(data)
@@ -66,15 +76,6 @@ def modes(
     show_table(["mode", *frequency, f"growth rate{rate}", "error estimate"], rows)
     if output:
         note(f"mode shapes written to {output}")
-
-
-def _shapes(vehicle: "Vehicle", thrust: float, count: int, formulation: str) -> "xarray.Dataset":
-    from beal.discretisation.build import discretise
-    from beal.interop.results import mode_shapes
-    from beal.stability.spectrum import spectrum
-
-    operators = discretise(vehicle, formulation)  # type: ignore[arg-type]  # checked before
-    return mode_shapes(spectrum(operators, thrust, count), operators)
 
 
 def _columns(shapes: "xarray.Dataset") -> dict[str, Any]:

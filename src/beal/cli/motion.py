@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.options import AsJson, Model, Table
+from beal.cli.figures import named, new_figure, response_figure
+from beal.cli.options import AsJson, Figure, Model, Table
 from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
 
@@ -26,6 +27,7 @@ def response(
         typer.Option(help="Start: mode:NUMBER:AMPLITUDE, or release:DEFLECTION[:STATION]; else at rest."),
     ] = None,
     output: Table = None,
+    figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
     """Motion at the sensors under a constant thrust and the transverse forces."""
@@ -37,11 +39,12 @@ def response(
 
     vehicle = load(model)
     start = _initial(initial) if initial else None
-    with new_result(output) as write:
+    with new_figure(figure, as_json) as draw, new_result(output) as write:
         operators = discretise(vehicle)
         found = motion_of(operators, duration, thrust, step=step, method=method, initial=start)  # type: ignore[arg-type]
         growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max())
         write(_columns(found), lambda: results.response(found))
+        draw(lambda: response_figure(found, vehicle.units == "nondimensional"))
     if as_json:
         sensors = {name: {what: getattr(found, what)[n] for what in HISTORIES} for n, name in enumerate(found.sensors)}
         emit(
@@ -54,6 +57,7 @@ def response(
                 "growth_rate": growth,
                 "units": vehicle.units,
                 "file": str(output) if output else None,
+                **named(figure),
             }
         )
         return

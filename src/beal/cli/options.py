@@ -15,3 +15,6 @@ Formulation = Annotated[
 Table = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write a table there: CSV, .nc, .mat or .uff.")
 ]
+Figure = Annotated[
+    Path | None, typer.Option("--figure", metavar="FILE", help="Draw the result there: .png, .svg or .pdf.")
+]

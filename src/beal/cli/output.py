@@ -124,7 +124,7 @@ def new_path(path: Path) -> Iterator[Path]:
     target = path.resolve()
     if target.exists() and not target.is_file():  # replacing a folder or a device would destroy it
         raise ModelError("cannot be written: is not a regular file; give the name of a file", str(path))
-    part = target.with_name(f".beal-{os.getpid()}.part")
+    part = target.with_name(f".{target.name}-{os.getpid()}.part")  # a command may write two files at once
     try:
         part.open("x").close()
     except OSError as error:

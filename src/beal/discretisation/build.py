@@ -76,7 +76,7 @@ def discretise(
         raise ModelError(
             f"order: {degree} gives some {size} coordinates, too many for dense matrices (at most {LARGEST}): "
             "lower it, or ask for the critical thrust or the modes, which reduce a large vehicle in the default basis"
-            + (" if it has no damping" if vehicle.damped else "")
+            + (" if it has no damping ratios" if any(vehicle.damping.ratios) else "")
         )
     shapes: Basis
     shapes = (LegendreBasis if basis == "legendre" else HermiteBasis)(vehicle, degree)

@@ -3,9 +3,9 @@
 import numpy as np
 import scipy.linalg
 
-from beal.discretisation.basis import DEFLECTION, ROTATION, Array, Combined
+from beal.discretisation.basis import DEFLECTION, ROTATION, Array, Basis, Combined, Rows
 from beal.discretisation.operators import Operators
-from beal.discretisation.samples import losses, products, total
+from beal.discretisation.samples import Integrals, losses, products, total
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -38,19 +38,28 @@ def damping_matrix(operators: Operators) -> Array:
     vehicle, basis, rigid = operators.vehicle, operators.basis, operators.rigid
     if not isinstance(basis, Combined):
         raise TypeError(f"the basis of operators with supports imposed is Combined, found {type(basis).__name__}")
-    inside, outside = (
-        total(tuple(loss.combined(basis.transformation) for loss in each)) for each in losses(vehicle, basis.basis)
+    inside, outside = dissipation(
+        vehicle,
+        basis,
+        *(tuple(loss.combined(basis.transformation) for loss in each) for each in losses(vehicle, basis.basis)),
     )
-    damping, chain = np.asarray(inside), basis.segments
-    fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
-    for reading, name in ((DEFLECTION, "shear_damping"), (ROTATION, "rotational_damping")):
-        dashpots = np.array([getattr(joint, name) for joint in vehicle.joints])
-        there = np.flatnonzero(dashpots)
-        damping = damping + products(basis.jumps([fronts[j] for j in there], reading), dashpots[there])
+    damping = np.asarray(inside)
     damping[:rigid] = damping[:, :rigid] = 0.0  # rounding: rigid-body motions strain nothing
     damping = damping + outside
     damping[rigid:, rigid:] += _modal(vehicle, operators.M[rigid:, rigid:], operators.K0[rigid:, rigid:])
     return np.asarray((damping + damping.T) / 2)
+
+
+def dissipation(vehicle: Vehicle, basis: Basis, inside: Integrals, outside: Integrals) -> tuple[Rows, Rows]:
+    """What strains and joints dissipate, and what the surroundings do, given the stages' `losses` in a basis."""
+    damping, chain = total(inside), basis.segments
+    fronts = [index for index in range(1, len(chain)) if chain[index - 1].stage != chain[index].stage]
+    for reading, name in ((DEFLECTION, "shear_damping"), (ROTATION, "rotational_damping")):
+        dashpots = np.array([getattr(joint, name) for joint in vehicle.joints])
+        there = np.flatnonzero(dashpots)
+        if len(there):
+            damping = damping + products(basis.jumps([fronts[j] for j in there], reading), dashpots[there])
+    return damping, total(outside)
 
 
 def _modal(vehicle: Vehicle, M: Array, K0: Array) -> Array:

@@ -29,9 +29,10 @@ from beal.discretisation.basis import (
 )
 from beal.discretisation.chain import ground_springs, held, jump_scales
 from beal.discretisation.cuts import ALL
+from beal.discretisation.damping import dissipation
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import gauss
-from beal.discretisation.samples import sample
+from beal.discretisation.samples import losses, sample
 from beal.discretisation.strains import STRAINS, Strain, orthonormal
 from beal.discretisation.varying import LoadShapes, load_shapes, pieces
 from beal.vehicle.vehicle import Vehicle
@@ -224,11 +225,13 @@ class LinkedOperators:
     vehicle : Vehicle
     M, K0, K1 : sparse arrays, shape (n, n)
     B : sparse array, shape (constraints, n)
-    motions : ndarray, shape (n, rigid)
+    motions : ndarray, shape (n, motions)
         The rigid-body motions that the supports leave, M-orthogonal.
     basis : LinkedBasis
     dead : sparse array, shape (n, n), optional
         Stiffness of the loads that do not grow with the thrust.
+    inside, outside : sparse array, shape (n, n), optional
+        Damping by strains and joints, and by the surroundings, of a damped vehicle.
     """
 
     vehicle: Vehicle
@@ -239,6 +242,13 @@ class LinkedOperators:
     motions: Array
     basis: LinkedBasis
     dead: Rows | None = None
+    inside: Rows | None = None
+    outside: Rows | None = None
+
+    @cached_property
+    def C(self) -> Rows:
+        """Damping, zero where there is none, shape (n, n)."""
+        return csr_array(self.M.shape) if self.inside is None else (self.inside + self.outside).tocsr()
 
     def stiffness(self, thrust: float) -> Rows:
         """K0 + P K1, and that of dead loads."""
@@ -249,6 +259,11 @@ class LinkedOperators:
     def shift(self) -> float:
         """The square of the vehicle's reference frequency, in rad^2/s^2."""
         return self.vehicle.scales.angular_frequency**2
+
+    @property
+    def rigid(self) -> int:
+        """Number of the motions that strain nothing, not even a foundation."""
+        return 0 if self.vehicle.founded else self.motions.shape[1]
 
     @cached_property
     def static(self) -> Rows:
@@ -274,8 +289,14 @@ class LinkedOperators:
         """The dense operators in the span of admissible vectors, the first of which are rigid-body motions."""
         M, K0, K1 = (np.asarray(vectors.T @ (matrix @ vectors)) for matrix in (self.M, self.K0, self.K1))
         K0[:rigid] = K0[:, :rigid] = 0.0
-        dead = None if self.dead is None else np.asarray(vectors.T @ (self.dead @ vectors))
-        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), dead=dead)
+        dead, inside, outside = (
+            None if matrix is None else np.asarray(vectors.T @ (matrix @ vectors))
+            for matrix in (self.dead, self.inside, self.outside)
+        )
+        if inside is not None:
+            inside[:rigid] = inside[:, :rigid] = 0.0
+        C = None if inside is None else inside + outside
+        return Operators(self.vehicle, M, K0, K1, rigid, Combined(self.basis, vectors), C, dead)
 
 
 def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
@@ -301,8 +322,9 @@ def linked(vehicle: Vehicle, order: int) -> LinkedOperators:
     basis = LinkedBasis(vehicle, order)
     M, K0, K1, dead = energies(vehicle, basis, sample(vehicle, basis))
     B = basis.constraints(vehicle)
-    motions = basis.rigid_body()[:, : 0 if vehicle.founded else 2]
+    motions = basis.rigid_body()
     _, singular, vt = np.linalg.svd(B[2 * len(basis.segments) - 2 :] @ motions, full_matrices=True)
     motions = motions @ vt[int(np.sum(singular > 1e-12)) :].T
     motions = normalised(vehicle, motions.T @ (M @ motions), motions)
-    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis, dead)
+    lost = dissipation(vehicle, basis, *losses(vehicle, basis)) if vehicle.damped else (None, None)
+    return LinkedOperators(vehicle, M.tocsr(), K0.tocsr(), K1.tocsr(), B, motions, basis, dead, *lost)

@@ -14,6 +14,7 @@ KEPT = "beal:"  # opens a comment that carries what bulk data cannot say
 
 _BEGIN = re.compile(r"\s*BEGIN\s+BULK\b", re.IGNORECASE)
 _SELECTED = re.compile(r"\s*SPC\s*=\s*([0-9]+)\s*$", re.IGNORECASE)
+_PARAMETER = re.compile(r"\s*PARAM[,*\s]", re.IGNORECASE)
 _INCLUDE = re.compile(r"\s*INCLUDE\b\s*(.*)", re.IGNORECASE)
 _END = re.compile(r"\s*ENDDATA\b", re.IGNORECASE)
 _NAME = re.compile(r"[A-Z][A-Z0-9]*")
@@ -94,15 +95,22 @@ class Deck:
         The constraint set that the case control section selects; 0 where it selects none, None where there is none.
     problems : list of (where, message)
         Lines that are no cards.
-    files : int
-        Number of files read.
+    ignored : list of (where, message)
+        Continuations that are promised and do not come.
+    ended : bool
+        Whether it ends with ENDDATA.
+    files, size : int
+        Number of files read, and their bytes.
     """
 
     cards: list[Card] = field(default_factory=list)
     kept: list[str] = field(default_factory=list)
     selected: int | None = None
     problems: list[tuple[str, str]] = field(default_factory=list)
+    ignored: list[tuple[str, str]] = field(default_factory=list)
+    ended: bool = False
     files: int = 0
+    size: int = 0
 
 
 @dataclass(frozen=True)
@@ -130,15 +138,19 @@ def read_deck(path: str | os.PathLike[str]) -> Deck:
         If the file, or one that it includes, cannot be read or is no text.
     """
     deck = Deck()
-    lines, ended = _unfolded(Path(path), "", [], deck)
+    lines, deck.ended = _unfolded(Path(path), "", [], deck)
     begin = next((n for n, line in enumerate(lines) if _BEGIN.match(line.text)), None)
-    deck.selected = None if begin is None else 0
-    for line in lines[: begin or 0]:
-        if match := _SELECTED.match(line.text):
-            deck.selected = int(match[1])
-    if begin is not None and not ended:
+    if begin is None:
+        _gather(lines, deck)
+        return deck
+    if not deck.ended:
         deck.problems.append((lines[-1].place, "the deck ends without ENDDATA: it may be cut off"))
-    _gather(lines if begin is None else lines[begin + 1 :], deck)
+    selected = sorted({int(match[1]) for line in lines[:begin] if (match := _SELECTED.match(line.text))})
+    if len(selected) > 1:
+        sets = " and ".join(map(str, selected))
+        deck.problems.append(("case control", f"selects SPC {sets}: keep the subcase of one support"))
+    deck.selected = selected[0] if selected else 0
+    _gather([line for line in lines[:begin] if _PARAMETER.match(line.text)] + lines[begin + 1 :], deck)
     return deck
 
 
@@ -146,6 +158,9 @@ def _unfolded(path: Path, prefix: str, above: list[Path], deck: Deck) -> tuple[l
     """Lines of a file with those of included files in their places, and whether they end with ENDDATA."""
     deck.files += 1
     content = read_bytes(path, LARGEST_DECK, "Nastran bulk data")
+    deck.size += len(content)
+    if deck.size > LARGEST_DECK:
+        raise ModelError(f"is larger than {LARGEST_DECK // 10**6} MB with what was read before it", str(path))
     if b"\0" in content:
         raise ModelError("holds null bytes: expected a text file of Nastran bulk data", str(path))
     try:
@@ -175,8 +190,6 @@ def _unfolded(path: Path, prefix: str, above: list[Path], deck: Deck) -> tuple[l
                 raise ModelError(f"includes {target.name} again, or too many files in files", f"{path}: {place}")
             inner, ended = _unfolded(target, f"{target.name} ", [*above, path], deck)
             lines += inner
-            if sum(len(line.text) for line in lines) > LARGEST_DECK:
-                raise ModelError(f"is larger than {LARGEST_DECK // 10**6} MB with what it includes", str(path))
             if ended:
                 return lines, True
         elif text.strip():
@@ -213,8 +226,11 @@ def _gather(lines: list[_Line], deck: Deck) -> None:
             parent.fields += [""] * (-len(parent.fields) % 8)
         parent.fields += fields
         last, expected = parent, label[1:].strip()
+        if expected in waiting:
+            deck.problems.append((line.place, f"names the continuation {expected}, as {waiting[expected].where} does"))
         if expected:
             waiting[expected] = parent
+    deck.ignored += [(card.where, "names a continuation that does not come") for card in waiting.values()]
 
 
 def _split(text: str) -> tuple[str, bool, list[str], str]:

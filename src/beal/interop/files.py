@@ -6,14 +6,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beal.errors import ModelError
+from beal.interop.cells import csv_text, sheet_content
 from beal.interop.matlab import write_matlab
 from beal.interop.nastran import Imported, read_nastran
 from beal.interop.nastran_deck import nastran_text
 from beal.interop.netcdf import write_netcdf
-from beal.interop.stations import read_stations, stations_sheet, stations_text
+from beal.interop.stations import read_stations
+from beal.interop.stations_out import station_rows
 from beal.interop.uff import write_uff
-from beal.vehicle.file import dumps
-from beal.vehicle.file import load as load_toml
+from beal.vehicle.file import dumps, read_toml, vehicle_from
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -82,7 +83,9 @@ def imported(path: str | os.PathLike[str], **options: Any) -> Imported:
         )
     if ending in DECKS:
         return read_nastran(path, **options)
-    return read_stations(path, **options) if ending in TABLES else Imported(load_toml(path))
+    if ending in TABLES:
+        return read_stations(path, **options)
+    return Imported(vehicle_from(read_toml(path), str(path)))
 
 
 def content(vehicle: Vehicle, path: str | os.PathLike[str], elements: int | None = None) -> bytes:
@@ -111,11 +114,12 @@ def content(vehicle: Vehicle, path: str | os.PathLike[str], elements: int | None
     if ending in DECKS:
         return nastran_text(vehicle, **({} if elements is None else {"elements": elements})).encode()
     if ending == ".xlsx":
-        return stations_sheet(vehicle)
-    writers = {".toml": dumps, ".csv": stations_text}
-    if ending not in writers:
-        raise ModelError(f"must end with {', '.join((*writers, '.xlsx', *DECKS))}", str(path))
-    return writers[ending](vehicle).encode()
+        return sheet_content(station_rows(vehicle))
+    if ending == ".csv":
+        return csv_text(station_rows(vehicle)).encode()
+    if ending != ".toml":
+        raise ModelError(f"must end with {', '.join(('.toml', *TABLES, *DECKS))}", str(path))
+    return dumps(vehicle).encode()
 
 
 def write_result(dataset: "xarray.Dataset", path: str | os.PathLike[str], ending: str) -> None:

@@ -11,16 +11,17 @@ from pathlib import Path
 from typing import Any, Literal
 
 from beal.errors import ModelError
+from beal.interop.bulk import understood
 from beal.interop.cards import Deck, read_deck
-from beal.interop.stick import described, stick, viewed
-from beal.interop.structure import understood
+from beal.interop.joined import joined
+from beal.interop.stick import described
+from beal.interop.structure import listed, shown
+from beal.interop.view import viewed
 from beal.units import to_si
 from beal.vehicle.file import vehicle_from
 from beal.vehicle.vehicle import Vehicle
 
 PLANES = ("xy", "xz", "yx", "yz", "zx", "zy")
-MOST_SHOWN = 20  # problems of one deck
-COUNTED = ("station", "mass", "rotary_inertia")
 
 
 @dataclass(frozen=True)
@@ -94,23 +95,22 @@ def read_nastran(
     view = viewed(found, plane, nose)
     data: dict[str, Any] = {}
     if view is not None:
-        line = stick(found, view)
+        line = joined(found, view)
         if not found.problems:
-            data = described(line, lumps == "spread", found.problems, found.notes)
+            data = described(line, found, lumps == "spread", by_comments=bool(deck.kept))
     kept = _kept(deck, found.problems)
+    if kept.get("units") == "nondimensional" and (length_unit, force_unit) != ("m", "N"):
+        found.problems.append(("length_unit, force_unit", "do not suit a deck that says it is nondimensional"))
     if found.problems or view is None:
-        shown = found.problems[:MOST_SHOWN]
-        if len(found.problems) > MOST_SHOWN:
-            shown.append(("", f"and {len(found.problems) - MOST_SHOWN} more problems"))
-        raise ModelError(shown, source)
+        raise ModelError(shown(found.problems), source)
     end = "highest" if nose == "high" else "lowest"
-    found.notes.insert(0, f"the nose is at the {end} {'xyz'[view.axis]}, bending in the plane {view.plane}")
+    notes = [("", f"the nose is at the {end} {'xyz'[view.axis]}, bending in the plane {view.plane}")]
     if kept.get("units") != "nondimensional":
-        found.notes.insert(1, f"units: {length_unit}, {force_unit}, s; mass in {force_unit} s^2/{length_unit}")
+        notes.append(("", f"units: {length_unit}, {force_unit}, s; mass in {force_unit} s^2/{length_unit}"))
         _scale(data, *scales)
     title = "" if deck.kept else Path(path).stem
     vehicle = vehicle_from({"title": title, **_merged(kept, data, source)}, source)
-    return Imported(vehicle, tuple(found.notes), tuple(found.ignored))
+    return Imported(vehicle, listed(notes + found.notes), listed(found.ignored))
 
 
 def _scales(length_unit: str, force_unit: str, problems: list[tuple[str, str]]) -> tuple[float, float]:
@@ -127,19 +127,34 @@ def _scales(length_unit: str, force_unit: str, problems: list[tuple[str, str]]) 
 
 def _scale(data: dict[str, Any], length: float, force: float) -> None:
     """Quantities into SI units, in place."""
+    moment, spring = force * length, force / length
     factors = {
-        "length": length,
-        "station": length,
-        "mass_per_length": force / length**2,
-        "bending_stiffness": force * length**2,
-        "mass": force / length,
-        "rotary_inertia": force * length,
-        "rotational_stiffness": force * length,
-        "shear_stiffness": force / length,
+        "stage": {
+            "length": length,
+            "mass_per_length": force / length**2,
+            "bending_stiffness": force * length**2,
+            "shear_stiffness": force,
+        },
+        "joint": {
+            "rotational_stiffness": moment,
+            "shear_stiffness": spring,
+            "rotational_damping": moment,
+            "shear_damping": spring,
+        },
+        "point_mass": {"station": length, "mass": spring, "rotary_inertia": moment},
+        "support": {"translation": spring, "rotation": moment},
     }
-    for parts in (data["stage"], data["joint"], data["point_mass"]):
-        for part in parts:
-            part.update({key: value * factors[key] for key, value in part.items() if key in factors})
+    parts = {**data, "support": [end for end in data["support"].values() if isinstance(end, dict)]}
+    for kind, by_key in factors.items():
+        for part in parts[kind]:
+            for key in by_key.keys() & part.keys():
+                part[key] = _scaled(part[key], by_key[key], length)
+
+
+def _scaled(value: Any, factor: float, length: float) -> Any:
+    if isinstance(value, dict):
+        return {"x": [length * x for x in value["x"]], "value": [factor * item for item in value["value"]]}
+    return factor * value
 
 
 def _kept(deck: Deck, problems: list[tuple[str, str]]) -> dict[str, Any]:

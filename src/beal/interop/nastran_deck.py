@@ -2,30 +2,36 @@
 
 import math
 from collections.abc import Iterator
+from itertools import count, groupby
 
 from beal.errors import ModelError
 from beal.interop.cards import KEPT
-from beal.interop.stick import SAME_PLACE, titled
+from beal.interop.mesh import VARYING, meshed
+from beal.interop.pieces import titled
+from beal.interop.tables import between
 from beal.vehicle.file import dumps_rest
-from beal.vehicle.parts import Joint
+from beal.vehicle.parts import Joint, Stage
 from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
 OUT_OF_PLANE = "1345"  # held everywhere: a vehicle bends in the plane xy
-SUPPORTS = {"clamped": "26", "pinned": "2", "sliding": "6"}
+PLANE = "26"  # components of deflection and slope
 SAID = {
-    "stage": ["length", "mass_per_length", "bending_stiffness"],
-    "joint": ["rotational_stiffness", "shear_stiffness"],
+    "stage": ["length", *VARYING],
+    "joint": ["rotational_stiffness", "shear_stiffness", "rotational_damping", "shear_damping"],
     "point_mass": ["station", "mass", "rotary_inertia"],
     "support": ["nose", "tail"],
 }
 WIDTH = 16  # of a large field
+Field = float | str | None
+Ends = tuple[int, int, int]  # of a bar: its number, forward grid, aft grid
 
 
 def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     """Nastran bulk data of a vehicle: bars along x, which runs from the tail to the nose, bending in the plane xy.
 
     A bar has E = 1, so that its second moment of area is the bending stiffness, and all its mass is non-structural.
+    Where a stage varies, it has tapered bars between grids at the stations of its tables.
     What bulk data cannot say (thrust, sensors, forces, names) is kept in comments that begin with ``$ beal:``.
 
     Parameters
@@ -42,7 +48,7 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     Raises
     ------
     ModelError
-        If the number of elements is not positive.
+        If the number of elements is not positive, or a stage is rigid.
 
     Examples
     --------
@@ -84,97 +90,101 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
 
 
 def _check(vehicle: Vehicle) -> None:
-    """Refuse what the cards that are written cannot say."""
-    problems = [
-        (f"stage[{n}].{name}", "is a table, which is not written to decks; keep it in TOML")
-        for n, stage in enumerate(vehicle.stages)
-        for name in stage.tables
-    ]
-    for name in ("nose", "tail"):
-        if not isinstance(getattr(vehicle.support, name), str):
-            problems.append((f"support.{name}", "is elastic, which is not written to decks; keep it in TOML"))
-    if problems:
-        raise ModelError(problems)
+    """Refuse what no bar can be."""
+    message = "is infinite, which no section of a bar can be; keep it in TOML"
+    stages = enumerate(vehicle.stages)
+    if rigid := [f"stage[{n}].bending_stiffness" for n, stage in stages if math.isinf(mean(stage.bending_stiffness))]:
+        raise ModelError([(path, message) for path in rigid])
 
 
 def _bulk(vehicle: Vehicle, elements: int) -> Iterator[str]:
+    mesh = meshed(vehicle, elements)
+    numbers, properties = count(len(mesh.bars) + 1), count(1)
     yield "PARAM,COUPMASS,1"
     yield "EIGRL,1,,,12"
     yield "MAT1,1,1.,,0."
-    grids, bars, faces = _mesh(vehicle, elements)
-    yield f"SPC1,1,{OUT_OF_PLANE},1,THRU,{len(grids)}"
-    for end, grid in ((vehicle.support.nose, 1), (vehicle.support.tail, len(grids))):
-        if isinstance(end, str) and end != "free":
-            yield f"SPC1,1,{SUPPORTS[end]},{grid}"
-    for number, station in enumerate(grids, 1):
+    yield f"SPC1,1,{OUT_OF_PLANE},1,THRU,{len(mesh.grids)}"
+    for stiffness, grid in zip(vehicle.support.stiffness, (1, len(mesh.grids)), strict=True):
+        yield from _end(stiffness, grid, numbers)
+    for number, station in enumerate(mesh.grids, 1):
         yield from _large("GRID", number, None, vehicle.length - station, 0.0, 0.0)
-    for number, stage in enumerate(vehicle.stages, 1):
-        stiffness, mass_per_length = mean(stage.bending_stiffness), mean(stage.mass_per_length)  # uniform, see _check
-        yield from _large("PBAR", number, 1, 1.0, stiffness, stiffness, None, mass_per_length)
-    before = 0
-    for element, (number, fore, aft) in enumerate(bars, 1):
-        if number != before:
-            yield f"$ {_comment(vehicle.stages[number - 1].name)}"
-            before = number
-        yield f"CBAR,{element},{number},{fore},{aft},0.,1.,0."
-    for index, joint in enumerate(vehicle.joints):
-        yield from _springs(joint, len(bars) + 2 * index + 1, *faces[index])
-    for index, mass in enumerate(vehicle.point_masses, len(bars) + 2 * len(vehicle.joints) + 1):
-        grid = _grid_at(vehicle, mass.station, grids, faces)
+    for index, bars in groupby(enumerate(mesh.bars, 1), key=lambda bar: bar[1][0]):
+        stage, front = vehicle.stages[index], vehicle.boundaries[index]
+        ends = [(element, fore, aft) for element, (_, fore, aft) in bars]
+        if stage.tables.keys() & VARYING:
+            yield from _tapered(stage, ends, [station - front for station in mesh.grids], properties)
+        else:
+            yield from _uniform(stage, ends, next(properties))
+    for joint, (forward, aft) in zip(vehicle.joints, mesh.faces, strict=True):
+        if forward != aft:
+            yield from _springs(joint, forward, aft, numbers)
+    for mass in vehicle.point_masses:
         yield f"$ {_comment(mass.name)}"
         inertia = mass.rotary_inertia
-        moments = (inertia, None, inertia, None, None, inertia)
-        yield from _large("CONM2", index, grid, 0, mass.mass, None, None, None, None, *(moments if inertia else ()))
+        moments = (None, None, None, None, inertia, None, inertia, None, None, inertia) if inertia else ()
+        yield from _large("CONM2", next(numbers), mesh.grid_at(mass.station), 0, mass.mass, *moments)
 
 
-def _mesh(vehicle: Vehicle, elements: int) -> tuple[list[float], list[tuple[int, int, int]], list[tuple[int, int]]]:
-    """Stations of the grids, bars as (stage, forward grid, aft grid), and both faces' grids of every joint."""
-    grids = [0.0]
-    bars: list[tuple[int, int, int]] = []
-    faces: list[tuple[int, int]] = []
-    near = 10 * SAME_PLACE * vehicle.length
-    masses = sorted(mass.station for mass in vehicle.point_masses)
-    for number, (start, end) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False), 1):
-        if number > 1:
-            faces.append((len(grids), len(grids) + (not _is_rigid(vehicle.joints[number - 2]))))
-            if faces[-1][0] != faces[-1][1]:
-                grids.append(start)
-        wanted = [start + (end - start) * n / elements for n in range(1, elements)]
-        wanted += [x for x in masses if start + near < x < end - near]
-        for x in (*sorted(set(wanted)), end):
-            bars.append((number, len(grids), len(grids) + 1))
-            grids.append(x)
-    return grids, bars, faces
+def _end(stiffness: tuple[float, float], grid: int, numbers: Iterator[int]) -> Iterator[str]:
+    """What holds an end: constraints where it is rigid, springs to the ground where it is elastic."""
+    springs = dict(zip(PLANE, stiffness, strict=True))
+    if held := "".join(component for component, k in springs.items() if math.isinf(k)):
+        yield f"SPC1,1,{held},{grid}"
+    for component, k in springs.items():
+        if 0 < k < math.inf:
+            yield from _large("CELAS2", next(numbers), k, grid, component)
 
 
-def _is_rigid(joint: Joint) -> bool:
-    return joint.rotational_stiffness == joint.shear_stiffness == math.inf
+def _uniform(stage: Stage, ends: list[Ends], number: int) -> Iterator[str]:
+    """Bars of one section."""
+    stiffness, shear = mean(stage.bending_stiffness), mean(stage.shear_stiffness)
+    factors: list[Field] = [*[None] * 9, 1.0, 1.0] if shear < math.inf else []
+    mass = mean(stage.mass_per_length)
+    yield from _large("PBAR", number, 1, _area(shear), stiffness, stiffness, None, mass, *factors)
+    yield f"$ {_comment(stage.name)}"
+    for element, fore, aft in ends:
+        yield f"CBAR,{element},{number},{fore},{aft},0.,1.,0."
 
 
-def _grid_at(vehicle: Vehicle, station: float, grids: list[float], faces: list[tuple[int, int]]) -> int:
-    """The grid nearest to a station; of a joint's two the aft one, unless the station is clearly forward of it."""
-    near = 10 * SAME_PLACE * vehicle.length
-    for (forward, aft), x in zip(faces, vehicle.boundaries[1:], strict=False):
-        if abs(station - x) <= near:
-            return aft if station >= x - SAME_PLACE * vehicle.length / 2 else forward
-    return min(range(len(grids)), key=lambda n: abs(grids[n] - station)) + 1
+def _tapered(stage: Stage, ends: list[Ends], x: list[float], properties: Iterator[int]) -> Iterator[str]:
+    """Bars that each have a section of their own at either end, x counting from the front of the stage."""
+    for element, fore, aft in ends:
+        number = next(properties)
+        values = [between(getattr(stage, name), x[fore - 1], x[aft - 1]) for name in VARYING]
+        sections: list[list[Field]] = [[_area(s), k, k, None, None, m] for m, k, s in zip(*values, strict=True)]
+        no_points: list[Field] = [None] * 8
+        factor = 0.0 if math.isinf(values[2][0]) else 1.0
+        yield from _large("PBEAM", number, 1, *sections[0], *no_points, "NO", 1.0, *sections[1], factor, factor)
+        if element == ends[0][0]:
+            yield f"$ {_comment(stage.name)}"
+        yield f"CBEAM,{element},{number},{fore},{aft},0.,1.,0."
 
 
-def _springs(joint: Joint, number: int, forward: int, aft: int) -> Iterator[str]:
-    """A CBUSH for what gives, an RBE2 for what does not."""
-    if forward == aft:
-        return
-    stiffness = {2: joint.shear_stiffness, 6: joint.rotational_stiffness}
-    rigid = "".join(str(n) for n, k in stiffness.items() if math.isinf(k))
-    soft = [stiffness[n] if n in (2, 6) and str(n) not in rigid else None for n in range(1, 7)]
+def _area(shear_stiffness: float) -> float:
+    """The area whose shear stiffness K G A is the stage's, K being 1 and G half of E; any where it is rigid."""
+    return 2 * shear_stiffness if shear_stiffness < math.inf else 1.0
+
+
+def _springs(joint: Joint, forward: int, aft: int, numbers: Iterator[int]) -> Iterator[str]:
+    """A CBUSH for what gives or dissipates, an RBE2 for what does neither."""
+    stiffness = joint.shear_stiffness, joint.rotational_stiffness
+    rows: list[Field] = ["K", *_components(*(k if k < math.inf else None for k in stiffness))]
+    if joint.shear_damping or joint.rotational_damping:
+        rows += [None, "B", *_components(joint.shear_damping, joint.rotational_damping)]
+    number = next(numbers)
     yield f"$ {_comment(joint.name)}"
     yield f"CBUSH,{number},{number},{forward},{aft},,,,0"
-    yield from _large("PBUSH", number, "K", *soft)
-    if rigid:
-        yield f"RBE2,{number + 1},{forward},{rigid},{aft}"
+    yield from _large("PBUSH", number, *rows)
+    if rigid := "".join(component for component, k in zip(PLANE, stiffness, strict=True) if math.isinf(k)):
+        yield f"RBE2,{next(numbers)},{forward},{rigid},{aft}"
 
 
-def _large(name: str, *fields: float | str | None) -> Iterator[str]:
+def _components(deflection: float | None, slope: float | None) -> list[Field]:
+    """Six fields for the components, of which a vehicle has two."""
+    return [None, deflection, None, None, None, slope]
+
+
+def _large(name: str, *fields: Field) -> Iterator[str]:
     """A card in the large format, four fields to a line."""
     texts = ["" if field is None else field if isinstance(field, str) else _number(field) for field in fields]
     for start in range(0, len(texts), 4):

@@ -1,32 +1,64 @@
-"""Station tables: a vehicle's stages as rows of a CSV file or a spreadsheet.
+"""Station tables: rows of a CSV file or a spreadsheet become the stages of a vehicle.
 
 One row per station, with the columns ``x`` [m], ``mass_per_length`` [kg/m] and ``bending_stiffness`` [N m^2], from nose
-to tail; a station that is given twice ends one stage and begins the next. Or one row per stage, with ``x_start`` and
-``x_end`` in place of ``x``. A name may end with a unit in brackets, ``x [ft]``. Rows that begin with ``# beal:`` hold
-the rest of the model, in the words of a model file.
+to tail; properties are linear between stations, and a station that is given twice ends one stage and begins the next.
+Or one row per uniform piece, with ``x_start`` and ``x_end`` in place of ``x``. A column ``stage`` says which stage a
+row belongs to; a station that is given twice in one stage is then a step. A name may end with a unit in brackets,
+``x [ft]``. Rows that begin with ``# beal:`` hold the rest of the model, in the words of a model file.
 """
 
-import csv
-import io
 import math
 import os
-import tomllib
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 from beal.errors import ModelError
+from beal.interop.cells import Rows, read_rows
 from beal.interop.nastran import Imported
+from beal.interop.structure import Remark, shown
+from beal.interop.tables import along
 from beal.units import to_si
-from beal.vehicle.file import LARGEST_FILE, dumps_rest, read_bytes, vehicle_from
-from beal.vehicle.parts import Stage
-from beal.vehicle.stations import mean
-from beal.vehicle.vehicle import Vehicle
+from beal.vehicle.file import vehicle_from
 
-KEPT = "# beal:"
-UNITS = {"x": "m", "x_start": "m", "x_end": "m", "mass_per_length": "kg/m", "bending_stiffness": "N*m^2"}
-SAID = {"stage": ("length", "mass_per_length", "bending_stiffness")}
-Rows = list[tuple[int, list[str]]]
+PROPERTIES = {
+    "mass_per_length": "kg/m",
+    "bending_stiffness": "N*m^2",
+    "shear_stiffness": "N",
+    "rotary_inertia_per_length": "kg*m",
+    "foundation_stiffness": "N/m^2",
+}
+# What a blank stands for; the others must be given.
+OPTIONAL = {"shear_stiffness": math.inf, "rotary_inertia_per_length": 0.0, "foundation_stiffness": 0.0}
+STIFF = ("bending_stiffness", "shear_stiffness")  # may be inf, rigid
+REQUIRED = PROPERTIES.keys() - OPTIONAL.keys()
+UNITS = {"x": "m", "x_start": "m", "x_end": "m", **PROPERTIES}
+LABEL = "stage"
+TOUCH = 1e-9  # of their distance from the origin: ends of rows that are one station
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of the table: its place, the stage that it names, where it begins and ends, and its properties."""
+
+    place: str
+    label: str
+    start: float
+    end: float
+    values: dict[str, float]
+
+
+@dataclass
+class Table:
+    """The rows, whether each is a station or a piece between two, and the columns that nobody asks for."""
+
+    rows: list[Row]
+    of_stations: bool
+    left: list[str]
+
+
+Points = list[tuple[float, Row]]  # stations of one stage
 
 
 def read_stations(
@@ -55,251 +87,131 @@ def read_stations(
         With every problem and its row.
     """
     source = str(path)
-    rows, kept = _rows(path, source)
+    rows, kept = read_rows(path)
     given = kept.pop("x_from", "nose")
     x_from = x_from or given
     if x_from not in ("nose", "tail"):
         raise ModelError([("x_from", f"must be nose or tail, found {x_from!r}")], source)
-    problems: list[tuple[str, str]] = []
-    table, ignored = _columns(rows, columns or {}, kept.get("units") == "nondimensional", problems)
-    stages = [] if problems else _stages(table, x_from == "tail", [n for n, _ in rows[1:]], problems)
+    problems: list[Remark] = []
+    table = _table(rows, columns or {}, kept.get("units") == "nondimensional", problems)
+    stages = [] if problems else list((_between if table.of_stations else _each)(table.rows, problems))
     if problems:
-        raise ModelError(problems, source)
+        raise ModelError(shown(problems), source)
+    turned = x_from == "tail"
+    described = [_described(stage, turned) for stage in (reversed(stages) if turned else stages)]
     extra = kept.pop("stage", [{}] * len(stages))
-    if not isinstance(extra, list) or len(extra) != len(stages):
+    if not isinstance(extra, list) or len(extra) != len(stages) or not all(isinstance(part, dict) for part in extra):
         raise ModelError([("stage", f"must be a list of {len(stages)} tables, one for each stage")], source)
     joints = kept.pop("joint", [{}] * (len(stages) - 1))
-    stages = [{**stage, **more} for stage, more in zip(stages, extra, strict=True)]
-    vehicle = vehicle_from({"title": Path(path).stem, **kept, "stage": stages, "joint": joints}, source)
-    return Imported(vehicle, (f"x counts from the {x_from}",), tuple(ignored))
+    described = [{**stage, **more} for stage, more in zip(described, extra, strict=True)]
+    vehicle = vehicle_from({"title": Path(path).stem, **kept, "stage": described, "joint": joints}, source)
+    left = (f"columns without a place in a stage, left out: {', '.join(table.left)}",) if table.left else ()
+    return Imported(vehicle, (f"x counts from the {x_from}",), left)
 
 
-def _rows(path: str | os.PathLike[str], source: str) -> tuple[Rows, dict[str, Any]]:
-    """Numbered rows without empty ones and comments, and what the comments say."""
-    every = _sheet(path, source) if str(path).lower().endswith(".xlsx") else _csv(path, source)
-    rows: Rows = []
-    kept: list[str] = []
-    for number, row in enumerate(every, 1):
-        cells = [cell.strip() for cell in row]
-        if cells and cells[0].startswith("#"):
-            line = ",".join(row).strip()
-            if line.startswith(KEPT):
-                kept.append(line.removeprefix(KEPT).removeprefix(" "))
-        elif any(cells):
-            rows.append((number, cells))
-    try:
-        return rows, tomllib.loads("\n".join(kept))
-    except (ValueError, RecursionError) as error:
-        raise ModelError(f"the rows that begin with {KEPT} are not valid TOML: {error}", source) from None
-
-
-def _csv(path: str | os.PathLike[str], source: str) -> Iterator[list[str]]:
-    try:
-        text = read_bytes(path, LARGEST_FILE, "a table").decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ModelError(f"is not text in UTF-8 (byte {error.start} is wrong): expected CSV", source) from None
-    for line in text.splitlines():
-        # A comment is one cell, commas and quotes in it or not.
-        yield [line] if line.lstrip().startswith("#") else next(csv.reader([line.replace("\0", " ")]), [])
-
-
-def _sheet(path: str | os.PathLike[str], source: str) -> list[list[str]]:
-    content = read_bytes(path, LARGEST_FILE, "a spreadsheet")
-    try:
-        import openpyxl  # only spreadsheets need it
-    except ImportError:
-        raise ModelError("needs openpyxl: install beal[io], or give the table as CSV", source) from None
-    from zipfile import BadZipFile
-
-    try:
-        sheet = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True).worksheets[0]
-        return [["" if cell is None else str(cell) for cell in row] for row in sheet.iter_rows(values_only=True)]
-    except (BadZipFile, KeyError, ValueError, IndexError) as error:
-        raise ModelError(f"is not a spreadsheet: {error}", source) from None
-
-
-def _columns(
-    rows: Rows, names: Mapping[str, str], plain: bool, problems: list[tuple[str, str]]
-) -> tuple[dict[str, list[float]], list[str]]:
-    """Numbers of the known columns, in SI units."""
+def _table(rows: Rows, names: Mapping[str, str], plain: bool, problems: list[Remark]) -> Table:
+    """Rows of numbers in SI units."""
     if len(rows) < 2:
         problems.append(("table", "needs a row of names and at least one of numbers"))
-        return {}, []
-    head = rows[0][1]
+        return Table([], True, [])
+    (top, head), *body = rows
     bare = [cell.partition("[")[0].strip() for cell in head]
-    places = {key: names.get(key, key) for key in UNITS}
-    unknown = [key for key in names if key not in UNITS]
-    problems += [("columns", f"{key!r} is none of {', '.join(UNITS)}") for key in unknown]
-    problems += [("columns", f"the table has no {place!r}") for key, place in names.items() if place not in bare]
-    there = {key: bare.index(place) for key, place in places.items() if place in bare}
-    wanted = {"mass_per_length", "bending_stiffness"} | ({"x"} if "x" in there else {"x_start", "x_end"})
-    if missing := sorted(wanted - set(there)):
-        problems.append((f"row {rows[0][0]}", f"has no column {', '.join(missing)}; found {', '.join(bare)[:200]}"))
-        return {}, []
-    table: dict[str, list[float]] = {}
-    for key in sorted(wanted):
-        unit = head[there[key]].partition("[")[2].rstrip("] ")
-        if unit and plain:
-            problems.append((head[there[key]], "a nondimensional model takes plain numbers"))
-        try:
-            factor = to_si(f"1 {unit}", UNITS[key]) if unit else 1.0
-        except ValueError as error:
-            problems.append((head[there[key]], str(error)))
-            factor = 1.0
-        table[key] = [factor * _number(number, row, there[key], places[key], problems) for number, row in rows[1:]]
-    left = [name for name in bare if name and bare.index(name) not in {there[key] for key in wanted}]
-    return table, [f"columns without a place in a stage, left out: {', '.join(left)}"] if left else []
+    known = (*UNITS, LABEL)
+    problems += [("columns", f"{key!r} is none of {', '.join(known)}") for key in names if key not in known]
+    problems += [("columns", f"the table has no {name!r}") for name in names.values() if name not in bare]
+    problems += [(f"row {top}", f"names {name!r} twice") for name in sorted({*bare} - {""}) if bare.count(name) > 1]
+    there = {key: bare.index(name) for key in known if (name := names.get(key, key)) in bare}
+    of_stations = "x" in there
+    for key in ("x_start", "x_end") if of_stations else ():
+        there.pop(key, None)
+    first, last = ("x", "x") if of_stations else ("x_start", "x_end")
+    if missing := sorted({first, last, *REQUIRED} - there.keys()):
+        problems.append((f"row {top}", f"has no column {', '.join(missing)}; found {', '.join(bare)[:200]}"))
+        return Table([], of_stations, [])
+    label = there.pop(LABEL, None)
+    factors = {key: _factor(head[place], UNITS[key], plain, problems) for key, place in there.items()}
+    table = []
+    for number, cells in body:
+        cells = [*cells, *[""] * (len(head) - len(cells))]
+        found = {}
+        for key, place in there.items():
+            where = f"row {number}, {bare[place]}"
+            found[key] = factors[key] * _number(cells[place], where, key, problems)
+            if key in PROPERTIES and found[key] < 0:
+                problems.append((where, f"must not be negative, found {cells[place][:20]}"))
+        values = {key: value for key, value in found.items() if key in PROPERTIES}
+        name = "" if label is None else cells[label]
+        table.append(Row(f"row {number}", name, found[first], found[last], values))
+    used = {*there.values(), label}
+    return Table(table, of_stations, [name for place, name in enumerate(bare) if name and place not in used])
 
 
-def _number(number: int, row: list[str], place: int, name: str, problems: list[tuple[str, str]]) -> float:
-    text = row[place] if place < len(row) else ""
+def _factor(title: str, wanted: str, plain: bool, problems: list[Remark]) -> float:
+    """SI value of the unit in the brackets of a column's title."""
+    unit = title.partition("[")[2].rstrip("] ")
+    if unit and plain:
+        problems.append((title, "a nondimensional model takes plain numbers"))
+    try:
+        return to_si(f"1 {unit}", wanted) if unit else 1.0
+    except ValueError as error:
+        problems.append((title, str(error)))
+        return 1.0
+
+
+def _number(text: str, place: str, key: str, problems: list[Remark]) -> float:
+    """A number, finite unless it is a stiffness; a blank cell is the default of what has one."""
+    if not text and key in OPTIONAL:
+        return OPTIONAL[key]
     try:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not math.isfinite(value):
-        problems.append((f"row {number}, {name}", f"must be a number, found {text[:20]!r}"))
+    if not math.isfinite(value) and not (key in STIFF and value == math.inf):
+        problems.append((place, f"must be a number, found {text[:20]!r}"))
     return value
 
 
-def _stages(
-    table: dict[str, list[float]], turned: bool, numbers: list[int], problems: list[tuple[str, str]]
-) -> list[dict[str, Any]]:
-    """Stages from nose to tail."""
-    starts, ends = (table[key] for key in (("x", "x") if "x" in table else ("x_start", "x_end")))
-    values = list(zip(table["mass_per_length"], table["bending_stiffness"], strict=True))
-    pieces = list(
-        _between(starts, values, numbers, problems) if "x" in table else _each(starts, ends, values, numbers, problems)
-    )
-    if not pieces and not problems:
+def _between(table: list[Row], problems: list[Remark]) -> Iterator[Points]:
+    """Stages between stations that are given twice, or where the label changes; properties are linear between rows."""
+    if len(table) < 2:
         problems.append(("table", "needs at least two stations"))
-    return [
-        {"length": length, "mass_per_length": mass, "bending_stiffness": stiffness}
-        for length, (mass, stiffness) in (reversed(pieces) if turned else pieces)
-    ]
-
-
-Piece = tuple[float, tuple[float, float]]
-
-
-def _between(
-    x: list[float], values: list[tuple[float, float]], numbers: list[int], problems: list[tuple[str, str]]
-) -> Iterator[Piece]:
-    """Length and properties between repeated stations; where stages are uniform, so is the table there."""
     first = 0
-    for n in range(1, len(x)):
-        if x[n] < x[n - 1]:
-            problems.append((f"row {numbers[n]}, x", f"must not fall, found {x[n]:g} after {x[n - 1]:g}"))
-        elif x[n] > x[n - 1] and values[n] != values[n - 1]:
-            message = "properties change between two stations: a stage is uniform, give a step (the station twice)"
-            problems.append((f"row {numbers[n]}", message))
-        if n + 1 == len(x) or x[n + 1] == x[n]:
-            if x[n] > x[first]:
-                yield x[n] - x[first], values[first]
-            first = n + 1
+    for n, (row, following) in enumerate(zip(table, [*table[1:], None], strict=True)):
+        if following and following.start < row.start:
+            problems.append((f"{following.place}, x", f"must not fall, found {following.start:g} after {row.start:g}"))
+        elif following and following.label != row.label and following.start > row.start:
+            message = f"begins another stage: repeat the station where the one before ends, {row.start:g}"
+            problems.append((following.place, message))
+        if following and following.label == row.label and (row.label or following.start != row.start):
+            continue
+        if row.start == table[first].start:
+            problems.append((row.place, "is a stage without length: a station may come twice"))
+        yield [(each.start, each) for each in table[first : n + 1]]
+        first = n + 1
 
 
-def _each(
-    starts: list[float],
-    ends: list[float],
-    values: list[tuple[float, float]],
-    numbers: list[int],
-    problems: list[tuple[str, str]],
-) -> Iterator[Piece]:
-    """Length and properties of runs of rows with equal ones."""
-    first = 0
-    for n, (start, end) in enumerate(zip(starts, ends, strict=True)):
-        if end <= start:
-            problems.append((f"row {numbers[n]}, x_end", f"must lie beyond x_start, found {start:g} to {end:g}"))
-        if n and start != ends[n - 1]:
-            problems.append((f"row {numbers[n]}, x_start", f"must be where the row above ends, {ends[n - 1]:g}"))
-        if n + 1 == len(starts) or values[n + 1] != values[n]:
-            yield end - starts[first], values[first]
-            first = n + 1
+def _each(table: list[Row], problems: list[Remark]) -> Iterator[Points]:
+    """Stages of rows that are uniform pieces: of equal rows, or of those of one label."""
+    stage: Points = []
+    for row, following in zip(table, [*table[1:], None], strict=True):
+        if row.end <= row.start:
+            found = f"{row.start:g} to {row.end:g}"
+            problems.append((f"{row.place}, x_end", f"must lie beyond x_start, found {found}"))
+        if following and abs(following.start - row.end) > TOUCH * max(abs(row.end), abs(row.start)):
+            message = f"must be where the row above ends, {row.end:g}, found {following.start:g}"
+            problems.append((f"{following.place}, x_start", message))
+        stage += [(stage[-1][0] if stage else row.start, row), (row.end, row)]
+        alike = following and (following.label or following.values) == (row.label or row.values)
+        if not alike:
+            yield stage
+            stage = []
 
 
-def station_rows(vehicle: Vehicle) -> list[list[str | float]]:
-    """Rows of a station table that reads back to the vehicle.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-
-    Returns
-    -------
-    list of list
-
-    Examples
-    --------
-    >>> from beal.vehicle import catalog
-    >>> for row in station_rows(catalog.beck())[-3:]:
-    ...     print(row)
-    ['x', 'mass_per_length', 'bending_stiffness']
-    [0.0, 1.0, 1.0]
-    [1.0, 1.0, 1.0]
-    """
-    units = {"x": "m", "mass_per_length": "kg/m", "bending_stiffness": "N*m^2"}
-    head = [f"{name} [{unit}]" if vehicle.units == "SI" else name for name, unit in units.items()]
-    rest = ([] if vehicle.title else ['title = ""']) + dumps_rest(vehicle, SAID).splitlines()
-    rows: list[list[str | float]] = [[f"{KEPT} {line}"] for line in rest]
-    rows.append([*head])
-    for stage, start, end in zip(vehicle.stages, vehicle.boundaries, vehicle.boundaries[1:], strict=False):
-        rows += [[x, *_properties(stage)] for x in (start, end)]
-    return rows
-
-
-def _properties(stage: Stage) -> tuple[float, float]:
-    if stage.tables:
-        raise ModelError([("stage", f"{' and '.join(stage.tables)} vary along it, which is not written; keep TOML")])
-    return mean(stage.mass_per_length), mean(stage.bending_stiffness)
-
-
-def stations_text(vehicle: Vehicle) -> str:
-    """The station table of a vehicle as CSV.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-
-    Returns
-    -------
-    str
-    """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    for row in station_rows(vehicle):
-        if len(row) == 1:
-            text.write(f"{row[0]}\n")  # a comment, without quotes
-        else:
-            writer.writerow(row)
-    return text.getvalue()
-
-
-def stations_sheet(vehicle: Vehicle) -> bytes:
-    """The station table of a vehicle as a spreadsheet.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-
-    Returns
-    -------
-    bytes
-        Of an ``.xlsx`` file.
-
-    Raises
-    ------
-    ModelError
-        If openpyxl, of the extra ``io``, is not installed.
-    """
-    try:
-        import openpyxl
-    except ImportError:
-        raise ModelError("a spreadsheet needs openpyxl: install beal[io], or write CSV") from None
-    book = openpyxl.Workbook(write_only=True)
-    sheet = book.create_sheet("stations")
-    for row in station_rows(vehicle):
-        sheet.append(row)
-    content = io.BytesIO()
-    book.save(content)
-    return content.getvalue()
+def _described(stage: Points, turned: bool) -> dict[str, Any]:
+    """A stage as a model file has it."""
+    if turned:
+        stage = [(-x, row) for x, row in reversed(stage)]
+    x = [station for station, _ in stage]
+    label = stage[0][1].label
+    values = {name: along(x, [row.values[name] for _, row in stage]) for name in stage[0][1].values}
+    return {**({"name": label} if label and not label.isdigit() else {}), "length": x[-1] - x[0], **values}

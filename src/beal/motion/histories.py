@@ -113,7 +113,7 @@ def turning_points(time: Array, displacement: Array, rate: Array) -> tuple[Array
     >>> np.round(instants / np.pi, 3).tolist(), np.round(peaks, 5).tolist()
     ([0.5, 1.5], [1.0, -1.0])
     """
-    before = np.flatnonzero(rate[:-1] * rate[1:] < 0)
+    before = np.flatnonzero(np.sign(rate[:-1]) * np.sign(rate[1:]) < 0)  # the product of two rates may overflow
     h = time[before + 1] - time[before]
     y0, y1, v0, v1 = displacement[before], displacement[before + 1], h * rate[before], h * rate[before + 1]
     s = v0 / (v0 - v1)

@@ -13,7 +13,7 @@ from beal.motion.reduction import free_modes
 
 Array = NDArray[np.float64]
 STATIONS = 401  # among which the largest deflection is looked for
-TIE = 1e-9  # relative difference of deflections that are equal but for rounding
+TIED = 1e-9  # relative difference of two largest deflections, of which the foremost counts
 
 
 class Initial(Protocol):
@@ -62,7 +62,7 @@ class ModeShape:
         stations = np.union1d(np.linspace(0.0, vehicle.length, STATIONS), vehicle.boundaries)
         deflection = np.concatenate([operators.shape(stations, side=side) @ mode for side in ("aft", "forward")])
         size = abs(deflection)
-        largest = deflection[np.argmax(size > (1 - TIE) * size.max())]  # of equal ones the first
+        largest = deflection[np.argmax(size > (1 - TIED) * size.max())]
         reference = largest if self.at == "largest" else deflection[0]
         if abs(reference) < 1e-9 * abs(largest):
             raise ModelError('initial: the nose is a node of this mode; give the amplitude at = "largest"')

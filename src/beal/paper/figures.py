@@ -85,7 +85,7 @@ def shapes() -> Drawing:
         # the coordinates of a Ritz formulation are the mode shapes themselves
         spectrum = Spectrum(0.0, roots.astype(complex) ** 4, np.eye(4, dtype=complex), 0)
         ax = axes[0, column]
-        plot.mode_shapes(spectrum, operators, ax)
+        plot.deflections(spectrum, operators, ax)
         ax.set_title(f"{'ab'[column]}  {title}")
         ax.legend(loc="lower center", ncols=2, fontsize=7, handlelength=2.6)
         ax.set_ylim(-1.75, 1.12)

@@ -1,9 +1,21 @@
 """Results to matplotlib axes: each function draws one result and computes nothing."""
 
-from beal.plot.curves import thrust_curve
+from beal.plot.curves import growth_rates, root_locus, thrust_curve
+from beal.plot.drawing import vehicle
 from beal.plot.histories import response, trajectory
 from beal.plot.maps import stability_map
-from beal.plot.shapes import mode_shapes
+from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 
-__all__ = ["mode_shapes", "response", "stability_map", "style", "thrust_curve", "trajectory"]
+__all__ = [
+    "deflections",
+    "growth_rates",
+    "mode_shapes",
+    "response",
+    "root_locus",
+    "stability_map",
+    "style",
+    "thrust_curve",
+    "trajectory",
+    "vehicle",
+]

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any, Literal
 
 from beal.motion import Response
-from beal.plot.style import BLUE, GREY, VERMILION, axes
+from beal.plot.style import BLUE, GREY, VERMILION, axes, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,16 +37,17 @@ def response(
     -------
     Axes
     """
-    ax = axes(ax)
-    row = result.index(sensor or result.sensors[0])
-    ax.axhline(0.0, color=GREY, linewidth=0.6)
-    look: dict[str, Any] = {"color": BLUE, "linewidth": 1.0} | line
-    ax.plot(result.time, getattr(result, quantity)[row], **look)
-    ax.set_xlabel(TIME if nondimensional else "time (s)")
-    ax.set_ylabel(_label(quantity, nondimensional))
-    ax.margins(x=0.0)
-    _powers(ax, "y")
-    return ax
+    with style():
+        ax = axes(ax)
+        row = result.index(sensor or result.sensors[0])
+        ax.axhline(0.0, color=GREY, linewidth=0.6)
+        look: dict[str, Any] = {"color": BLUE, "linewidth": 1.0} | line
+        ax.plot(result.time, getattr(result, quantity)[row], **look)
+        ax.set_xlabel(TIME if nondimensional else "time (s)")
+        ax.set_ylabel(_label(quantity, nondimensional))
+        ax.margins(x=0.0)
+        _powers(ax, "y")
+        return ax
 
 
 def trajectory(
@@ -72,15 +73,16 @@ def trajectory(
     -------
     Axes
     """
-    ax = axes(ax)
-    displacement, rate = result.trajectory(sensor or result.sensors[0])
-    look: dict[str, Any] = {"color": BLUE, "linewidth": 0.8} | line
-    ax.plot(displacement, rate, **look)
-    ax.plot(displacement[:1], rate[:1], marker="o", color=VERMILION, markersize=5, linestyle="none", label="start")
-    ax.set_xlabel(_label("displacement", nondimensional))
-    ax.set_ylabel(_label("rate", nondimensional))
-    _powers(ax, "both")
-    return ax
+    with style():
+        ax = axes(ax)
+        displacement, rate = result.trajectory(sensor or result.sensors[0])
+        look: dict[str, Any] = {"color": BLUE, "linewidth": 0.8} | line
+        ax.plot(displacement, rate, **look)
+        ax.plot(displacement[:1], rate[:1], marker="o", color=VERMILION, markersize=5, linestyle="none", label="start")
+        ax.set_xlabel(_label("displacement", nondimensional))
+        ax.set_ylabel(_label("rate", nondimensional))
+        _powers(ax, "both")
+        return ax
 
 
 def _powers(ax: "Axes", axis: Literal["y", "both"]) -> None:

@@ -9,7 +9,7 @@ from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
 from beal.plot.refined import draw, regions
-from beal.plot.style import BLACK, axes
+from beal.plot.style import BLACK, axes, style
 from beal.study.refined import RefinedMap
 
 if TYPE_CHECKING:
@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 FLUTTER, DIVERGENCE = 1, 2
 NARROW = 0.3  # share of the width below which a region's label stands upright
 SMALLEST_LABEL = 0.008  # share of the map below which a region carries no name
-NAMES = {
-    "joint[0].rotational_stiffness": "rotational stiffness $k_r L/EI$",
-    "joint[0].shear_stiffness": "shear stiffness $k_s L^3/EI$",
+NAMES = {  # non-dimensional, and in SI units
+    "critical_thrust": ("critical thrust $P L^2/EI$", "critical thrust P (N)"),
+    "joint[0].rotational_stiffness": ("rotational stiffness $k_r L/EI$", "rotational stiffness $k_r$ (N m/rad)"),
+    "joint[0].shear_stiffness": ("shear stiffness $k_s L^3/EI$", "shear stiffness $k_s$ (N/m)"),
 }
 
 
@@ -59,21 +60,27 @@ def stability_map(
     ModelError
         If a refined map has other than two axes.
     """
-    ax = axes(ax)
-    mesh: ScalarMappable | None = draw(ax, chart, levels) if isinstance(chart, RefinedMap) else None
-    grid = chart.grid if isinstance(chart, RefinedMap) else chart
-    across, up = grid.critical_thrust.dims
-    x, y = (np.asarray(grid[name], dtype=float) for name in (across, up))
-    x_edges, y_edges = (x, y) if mesh else (_edges(x), _edges(y))
-    mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
-    _labels(ax, x, y, regions(grid))
-    ax.set_xlabel(NAMES.get(str(across), str(across)))
-    ax.set_ylabel(NAMES.get(str(up), str(up)))
-    ax.set_xlim(x_edges[0], x_edges[-1])
-    ax.set_ylim(y_edges[0], y_edges[-1])
-    if colorbar:
-        ax.figure.colorbar(mesh, ax=ax, label="critical thrust $P L^2/EI$")
-    return ax
+    with style():
+        ax = axes(ax)
+        mesh: ScalarMappable | None = draw(ax, chart, levels) if isinstance(chart, RefinedMap) else None
+        grid = chart.grid if isinstance(chart, RefinedMap) else chart
+        across, up = grid.critical_thrust.dims
+        x, y = (np.asarray(grid[name], dtype=float) for name in (across, up))
+        x_edges, y_edges = (x, y) if mesh else (_edges(x), _edges(y))
+        mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
+        _labels(ax, x, y, regions(grid))
+        si = grid.attrs.get("units") == "SI"
+        ax.set_xlabel(_label(str(across), si))
+        ax.set_ylabel(_label(str(up), si))
+        ax.set_xlim(x_edges[0], x_edges[-1])
+        ax.set_ylim(y_edges[0], y_edges[-1])
+        if colorbar:
+            ax.figure.colorbar(mesh, ax=ax, label=_label("critical_thrust", si))
+        return ax
+
+
+def _label(name: str, si: bool) -> str:
+    return NAMES[name][si] if name in NAMES else name
 
 
 def _cells(

@@ -12,16 +12,17 @@ from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.complete import Event, events
-from beal.stability.damped import closest_mode, damped_events, growing_root, highest_frequency, unstable_roots
+from beal.stability.damped import damped_events, fed_modes, highest_frequency, unloaded, unstable_roots
+from beal.stability.dead_loads import check_dead_loads
 from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Pencil, pencil, reduced
 from beal.stability.refine import default_tolerance, first_order, ladder, refined, settled
-from beal.stability.ridge import REAL, Instability, Search, meeting_pair
+from beal.stability.ridge import Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
-from beal.stability.zero_roots import FIRST, ZERO, mechanism, rigid_body_root
+from beal.stability.zero_roots import FIRST, mechanism, rigid_body_root
 from beal.vehicle.vehicle import Vehicle
 
 STEPS = 36  # coarse intervals up to the default limit
@@ -122,7 +123,7 @@ def critical_thrust(
     Raises
     ------
     ModelError
-        If an option does not apply.
+        If an option does not apply, or the dead loads alone make the vehicle unstable.
     ConvergenceError
         If the tolerance is not reached.
 
@@ -131,7 +132,12 @@ def critical_thrust(
     The search looks at the lowest modes (``watched_modes``) up to ``searched_to``; an instability among
     higher modes, or one whose growth rate stays below some 1e-5 of its frequency, is not reported. Vehicles of a
     dozen segments and more go by sparse matrices and a reduction, in a time about proportional to their size; of those
-    with many soft joints the lowest 32 modes are looked at. Damped vehicles go by dense matrices whatever their size.
+    with many soft joints the lowest 32 modes are looked at, of damped ones at most 14. Damping ratios couple everything
+    with everything: vehicles that have them go by dense matrices whatever their size.
+
+    A foundation in proportion to the mass lends the translation and the rotation of a free vehicle one frequency.
+    Rotation under a follower thrust then drives translation in resonance, in proportion to time, as it lets a vehicle
+    without a foundation drift: neither counts as an instability. The least other foundation may flutter early.
 
     Examples
     --------
@@ -151,9 +157,9 @@ def critical_thrust(
             operators = discretise(vehicle, formulation, order=modes)
             return _solve(task, operators, method, lambda found: settled(found, pencil(operators)))
         tolerance = tolerance or default_tolerance(vehicle, basis)
-        if basis == "legendre" and is_large(vehicle) and not vehicle.damped:
+        if basis == "legendre" and is_large(vehicle):
             large = Reduction(vehicle, formulation)
-            task = replace(task, watched=large.watched)
+            task = replace(task, watched=_watched(large))
             return _solve(task, large.operators, method, lambda found: refined(found, large.points(found), tolerance))
         operators = discretise(vehicle, formulation, basis, first_order(vehicle, basis))
         points = partial(ladder, vehicle, formulation, basis)
@@ -186,7 +192,7 @@ def critical_events(
         large = None
         operators = vehicle
         if isinstance(operators, Vehicle):
-            if formulation not in RITZ and is_large(operators) and not operators.damped:
+            if formulation not in RITZ and is_large(operators):
                 large = Reduction(operators, formulation)
                 operators = large.operators
             else:
@@ -194,7 +200,7 @@ def critical_events(
                 operators = discretise(operators, formulation, order=order)
         task = _task(operators.vehicle, max_thrust, formulation)
         full = pencil(operators)
-        watched = large.watched if large else task.watched
+        watched = _watched(large) if large else task.watched
         small = reduced(full, watched + COMPLETE_SPARE)
         if full.C is None:
             found = events(small, task.limit, watched)
@@ -224,6 +230,10 @@ def _task(vehicle: Vehicle, max_thrust: float | None, formulation: Formulation) 
     return _Task(limit, math.ceil(STEPS * limit / natural) + 1, watched, formulation)
 
 
+def _watched(large: Reduction) -> int:
+    return min(large.watched, MOST_DAMPED) if large.system.vehicle.damped else large.watched
+
+
 Refine = Callable[[Instability], tuple[CriticalPoint, float]]
 
 
@@ -236,11 +246,8 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     drift: str
     if full.C is None:
         drift = rigid_body_root(small, task.limit)
-        if full.dead is not None:
-            _check_dead_loads(small, drift == "tumbling")
+        check_dead_loads(small, task.limit)
         found = _first(task, small, method)
-    elif full.dead is not None:
-        raise ModelError("damping: is not supported beside dead loads (axial_load, gravity); leave one of the two out")
     else:
         drift, found = _first_damped(task, small, _without_damping(operators, task.watched))
     watched = min(task.watched, len(small.M) - small.rigid)
@@ -274,13 +281,6 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     return result
 
 
-def _check_dead_loads(small: Pencil, tumbling: bool) -> None:
-    """Refuse a vehicle that its dead loads alone make unstable."""
-    low = small.roots(0.0)[int(tumbling) :]
-    if low[0].real < -ZERO * small.shift or np.any(np.abs(low.imag) > REAL * np.abs(low) + ZERO * small.shift):
-        raise ModelError("axial_load: the dead loads alone, axial loads and gravity, make the vehicle unstable")
-
-
 def _first(task: _Task, small: Pencil, method: str) -> Instability | None:
     if kind := mechanism(small, task.limit):
         modes = (1, 1) if kind == "divergence" else meeting_pair(small, 0.0, 0.0)
@@ -295,16 +295,19 @@ def _first_damped(task: _Task, small: Pencil, undamped: Pencil) -> tuple[str, In
     """Where the rigid-body motion goes under the first thrust, and the first instability of a damped pencil."""
     if mechanism(undamped, task.limit):
         return "", _first(task, undamped, "fast")
-    found = damped_events(small, undamped, task.limit, task.watched)
     top = highest_frequency(undamped, task.watched)
+    check_dead_loads(undamped, task.limit, small, top)
+    found = damped_events(small, undamped, task.limit, task.watched)
     first = found[0].thrust if found else task.limit
     drift: str = rigid_body_root(undamped, task.limit)
-    own = unstable_roots(small, min(FIRST * task.limit, first / 2), top) if small.rigid else 0
-    if own:
-        return "tumbling", _first_of(found, own)
-    if W := growing_root(small, first / 2, top):  # from the first thrust on
-        return drift, Instability(_start(0.0, W), "flutter", (closest_mode(undamped, first / 2, W, task.limit),) * 2)
-    return drift, _first_of(found, 0)
+    own = 0
+    if small.rigid:
+        early = min(FIRST * task.limit, first / 2)
+        own = unstable_roots(small, early, top) - 2 * len(fed_modes(small, undamped, early, task.limit, top))
+    if fed := fed_modes(small, undamped, first / 2, task.limit, top):  # from the first thrust on
+        start = _start(0.0, unloaded(undamped, fed[0]))
+        return "tumbling" if own else drift, Instability(start, "flutter", (fed[0], fed[0]))
+    return "tumbling" if own else drift, _first_of(found, own)
 
 
 def _first_of(found: list[Event], own: int) -> Instability | None:

@@ -13,29 +13,29 @@ are the eigenvalues of one matrix. For a damping e C with e -> 0, X = e X' gives
 the first two terms of the second line: without these two they are the limit itself.
 """
 
+from dataclasses import replace
+
 import numpy as np
-from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError
-from beal.stability.complete import SAME, Event, nearly_real, zero_roots
+from beal.stability.complete import REFERENCE, SAME, Event, inverse_roots, zero_roots
 from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
 from beal.stability.imaginary_root import damping_of, imaginary_root
+from beal.stability.pairs import matrix, pairs
 from beal.stability.pencil import UNCOUPLED, Array, ComplexArray, Pencil
 from beal.stability.ridge import Kind
 from beal.stability.zero_roots import ZERO, rigid_body_root
 
-Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 Crossing = tuple[float, float, Kind]  # thrust, W = omega^2, kind
 FLUTTER: Kind = "flutter"
 DIVERGENCE: Kind = "divergence"
-REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
 ON_AXIS = 1e-4  # Re s, beside |s|
 FIRST_SHARES = np.array([1e-5, 1e-4, 1e-3, 1e-2])  # of the limit
 SAMPLES = 24  # thrusts at which the unstable roots are counted to see that no crossing is missing
 BISECTIONS = 40
 GROWING = 1e-9  # Re s, beside |s|, from which a root counts as growing
-CLOSEST = 3  # roots beside the axis that are tried at a thrust
+CLOSEST, BESIDE_AXIS = 3, 0.1  # roots that are tried at an approximate thrust: so many, |Re s| up to this share of |s|
 
 
 def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) -> list[Event]:
@@ -65,7 +65,7 @@ def damped_events(pencil: Pencil, undamped: Pencil, limit: float, watched: int) 
     for thrust in zero_roots(static, limit):
         found += _divergence(static, thrust)
     for thrust in _missed(pencil, [thrust for thrust, _, _ in found], limit, top):
-        resolved = _flutter(pencil, thrust, top, closest=len(pencil.M)) + _divergence(static, thrust)
+        resolved = _flutter(pencil, thrust, top, len(pencil.M), 1.0) + _divergence(static, thrust)
         slow = len(_growing(pencil, thrust / 2, top, GROWING / 10)) > 0  # grows from the start, and is seen only here
         if not resolved and not slow and _on_axis(pencil, thrust, top):
             raise ConvergenceError(f"critical thrust near {thrust:.6g}: an instability there cannot be resolved")
@@ -90,10 +90,12 @@ def distinct(found: list[Crossing], limit: float) -> list[Crossing]:
     return kept
 
 
-def _flutter(pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST) -> list[Crossing]:
+def _flutter(
+    pencil: Pencil, thrust: float, top: float, closest: int = CLOSEST, beside: float = BESIDE_AXIS
+) -> list[Crossing]:
     """Crossings of complex roots next to an approximate thrust."""
     s = damped_roots(pencil, thrust)
-    s = s[(s.imag > 0) & (np.abs(s) < top)]
+    s = s[(s.imag > 0) & (np.abs(s) < top) & (np.abs(s.real) <= beside * np.abs(s))]
     points = []
     for root in s[np.argsort(np.abs(s.real) / np.abs(s))[:closest]]:
         point = imaginary_root(pencil, thrust, root.imag**2)
@@ -146,31 +148,25 @@ def crossings(pencil: Pencil, limit: float, vanishing: bool = False) -> Array:
     ndarray
     """
     M, C = pencil.shift * pencil.M, np.sqrt(pencil.shift) * damping_of(pencil)  # time without units
-    below, lower = np.tril_indices(len(M), -1), np.tril_indices(len(M))  # entries of X, of Y
-
-    def block(rows: Pairs, columns: Pairs, sign: float, *products: tuple[Array, Array]) -> Array:
-        """Matrix of sum A Z B^T, for the entries of (anti)symmetric results and unknowns Z = sign * Z^T."""
-        kron = sum(np.kron(A, B) for A, B in products)
-        shaped = np.asarray(kron).reshape(4 * (len(M),))[rows]
-        return np.asarray(shaped[:, columns[0], columns[1]] + sign * shaped[:, columns[1], columns[0]])
+    every = np.ones(len(M), dtype=bool)
+    of_X, of_Y = pairs(every, diagonal=False), pairs(every, diagonal=True)
 
     def operator(K: Array, *damping: tuple[Array, Array]) -> Array:
         """Both lines on both unknowns; the thrust changes K alone."""
-        fed = np.zeros((len(below[0]),) * 2) if vanishing else block(below, below, -1, (C, K), (K, C))
+        fed = np.zeros((len(of_X[0]),) * 2) if vanishing else matrix(of_X, of_X, -1, (C, K), (K, C))
         return np.block(
             [
-                [block(lower, below, -1, (M, K), (-K, M)), block(lower, lower, 1, *damping)],
-                [fed, block(below, lower, 1, (K, M), (-M, K))],
+                [matrix(of_Y, of_X, -1, (M, K), (-K, M)), matrix(of_Y, of_Y, 1, *damping)],
+                [fed, matrix(of_X, of_Y, 1, (K, M), (-M, K))],
             ]
         )
 
-    mass = np.diag(M)
-    of_X, of_Y = mass[below[0]] * mass[below[1]], mass[lower[0]] * mass[lower[1]]
-    scale = np.outer(np.concatenate((of_Y, of_X)) ** -0.5, np.concatenate((of_X, of_Y)) ** -0.25)
+    inertia = np.diag(M)
+    X, Y = (inertia[i] * inertia[j] for i, j in (of_X, of_Y))
+    scale = np.outer(np.concatenate((Y, X)) ** -0.5, np.concatenate((X, Y)) ** -0.25)
     at = scale * operator(pencil.stiffness(REFERENCE * limit), (M, C), (C, M))
-    change = scale * operator(limit * pencil.K1, (0 * M, C))
-    inverse = np.linalg.eigvals(np.linalg.solve(at, -change)).astype(complex)
-    return nearly_real(REFERENCE + 1 / inverse[np.abs(inverse) > SAME], limit)
+    change = scale * operator(limit * pencil.K1)
+    return inverse_roots(at, change, limit)
 
 
 def unstable_roots(pencil: Pencil, thrust: float, top: float) -> int:
@@ -178,11 +174,19 @@ def unstable_roots(pencil: Pencil, thrust: float, top: float) -> int:
     return len(_growing(pencil, thrust, top))
 
 
-def growing_root(pencil: Pencil, thrust: float, top: float) -> float:
-    """W = omega^2 of the complex root below a frequency that grows fastest; 0 where none does."""
+def fed_modes(pencil: Pencil, undamped: Pencil, thrust: float, limit: float, top: float) -> list[int]:
+    """Numbers of the elastic modes below a frequency that grow as they swing, the fastest first."""
     s = _growing(pencil, thrust, top)
-    s = s[s.imag != 0]
-    return float(s.imag[s.real.argmax()] ** 2) if len(s) else 0.0
+    s = s[s.imag > 0]
+    drifts = pencil.rigid > undamped.rigid
+    modes = [closest_mode(undamped, thrust, W, limit, drifts) for W in s[np.argsort(-s.real)].imag ** 2]
+    return [mode for mode in modes if mode]
+
+
+def unloaded(undamped: Pencil, mode: int) -> float:
+    """W of an elastic mode without thrust."""
+    roots = np.append(undamped.roots(0.0).real[undamped.rigid :], undamped.held)
+    return float(np.sort(roots)[mode - 1])
 
 
 def _growing(pencil: Pencil, thrust: float, top: float, least: float = GROWING) -> ComplexArray:
@@ -211,15 +215,25 @@ def closest_mode(undamped: Pencil, thrust: float, W: float, limit: float, drifts
         roots, rigid = np.delete(roots, np.abs(roots).argmin()), 0
     if drifts and not rigid:
         roots, rigid = np.append(0.0, roots), 1
+    if undamped.held:
+        roots = np.sort_complex(np.append(roots, undamped.held))
     distance = np.abs(roots - W)
     return int(np.argmax(distance <= distance.min() * (1 + 1e-6))) + 1 - rigid
 
 
 def with_rates(pencil: Pencil) -> Pencil:
     """The static problem, with the rates of motions that meet no stiffness in place of the motions."""
+    free = free_motions(pencil)
+    K0 = pencil.K0 + damping_of(pencil) @ free @ free.T
+    dead = None if pencil.dead is None else pencil.dead - pencil.dead @ free @ free.T
+    return replace(pencil, K0=K0, K1=pencil.K1 - pencil.K1 @ free @ free.T, C=None, dead=dead)
+
+
+def free_motions(pencil: Pencil) -> Array:
+    """Rigid-body motions on which no load acts, as orthonormal columns among zero ones, shape (n, rigid)."""
+    loads = [load / np.abs(load).max() for load in (pencil.K1, pencil.dead) if load is not None and load.any()]
     free = np.zeros((len(pencil.M), pencil.rigid))
     if pencil.rigid:
-        _, size, motions = np.linalg.svd(pencil.K1[:, : pencil.rigid])
-        free[: pencil.rigid] = motions.T * (size < UNCOUPLED * np.abs(pencil.K1).max())
-    K0 = pencil.K0 + damping_of(pencil) @ free @ free.T
-    return Pencil(K0, pencil.K1 - pencil.K1 @ free @ free.T, pencil.M, pencil.rigid, pencil.shift)
+        _, size, motions = np.linalg.svd(np.vstack(loads)[:, : pencil.rigid])
+        free[: pencil.rigid] = motions.T * (size < UNCOUPLED)
+    return free

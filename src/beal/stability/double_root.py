@@ -161,16 +161,16 @@ def divergence(pencil: Pencil, thrust: float, neutral: bool = False) -> Critical
     return _point(pencil, thrust, 0.0, converged, here, change, slope)
 
 
-def chained(pencil: Pencil, point: CriticalPoint) -> tuple[Array, Array]:
-    """The second vectors of a double root, (K - W M) x' = M x and its transpose, right and left, shape (n,)."""
+def chained(pencil: Pencil, point: CriticalPoint, feeds: Array) -> tuple[Array, Array]:
+    """Second vectors, (K - W M) x' = F x and its transpose, right and left, shape (n,); F = M at a double root."""
     n = len(point.right)
     matrix = np.zeros((n + 1, n + 1))
     matrix[:n, :n] = pencil.stiffness(point.thrust) - point.W * pencil.M
     matrix[:n, n] = point.left / np.linalg.norm(point.left)
     matrix[n, :n] = point.right / np.linalg.norm(point.right)
     factor = scipy.linalg.lu_factor(matrix)
-    right = scipy.linalg.lu_solve(factor, np.append(pencil.M @ point.right, 0.0))
-    left = scipy.linalg.lu_solve(factor, np.append(pencil.M @ point.left, 0.0), trans=1)
+    right = scipy.linalg.lu_solve(factor, np.append(feeds @ point.right, 0.0))
+    left = scipy.linalg.lu_solve(factor, np.append(feeds @ point.left, 0.0), trans=1)
     return right[:n], left[:n]
 
 

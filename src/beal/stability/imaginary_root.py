@@ -75,7 +75,6 @@ def vanishing_root(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
     Returns
     -------
     CriticalPoint
-        Without eigenvectors.
     """
     C = damping_of(pencil)
 
@@ -95,7 +94,9 @@ def vanishing_root(pencil: Pencil, thrust: float, W: float) -> CriticalPoint:
 
     u, _, vt = np.linalg.svd(pencil.stiffness(thrust) - W * pencil.M)
     b, c, unit = u[:, -1], vt[-1], np.eye(len(u) + 1)[-1]
-    return _newton(equations, thrust, W)
+    point = _newton(equations, thrust, W)
+    u, _, vt = np.linalg.svd(pencil.stiffness(point.thrust) - point.W * pencil.M)
+    return replace(point, right=vt[-1], left=u[:, -1])
 
 
 def damping_of(pencil: Pencil) -> Array:

@@ -19,12 +19,14 @@ from beal.discretisation.cuts import ALL
 from beal.discretisation.linked import LinkedOperators, linked
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError
-from beal.stability.double_root import CriticalPoint, chained
+from beal.stability.double_root import CriticalPoint
+from beal.stability.imaginary_root import vanishing_root
 from beal.stability.limit import waves
 from beal.stability.pencil import CORRECTED, TWICE_CORRECTED, Array, Pencil, pencil
 from beal.stability.refine import LAST_ORDER, polish
 from beal.stability.ridge import Instability
 from beal.stability.spectrum import Spectrum, spectrum
+from beal.stability.unbalanced import unbalanced
 from beal.vehicle.vehicle import Vehicle
 
 SEGMENTS = 12  # from which the dense matrices take longer
@@ -38,8 +40,11 @@ SAME = 1e-13  # relative change below which a point, or the roots beside the shi
 
 
 def is_large(vehicle: Vehicle) -> bool:
-    """Whether a vehicle has so many segments that its dense matrices take longer than their reduction."""
-    return len(segments(vehicle, few=ALL)) >= SEGMENTS
+    """Whether a vehicle has so many segments that its dense matrices take longer than their reduction.
+
+    Damping ratios couple all coordinates, whose matrix then is not sparse.
+    """
+    return len(segments(vehicle, few=ALL)) >= SEGMENTS and not any(vehicle.damping.ratios)
 
 
 class Reduction:
@@ -51,16 +56,21 @@ class Reduction:
     formulation : {"objective", "converged"}
     modes : int
         Least number of elastic modes to hold.
+    vanishing : bool
+        Whether critical points are those of a damping that goes to zero.
     """
 
-    def __init__(self, vehicle: Vehicle, formulation: Formulation, modes: int = WATCHED) -> None:
+    def __init__(
+        self, vehicle: Vehicle, formulation: Formulation, modes: int = WATCHED, vanishing: bool = False
+    ) -> None:
         check_formulation(formulation)
         converged = formulation == "converged"
         self._vehicle = inertial(vehicle) if converged else vehicle
+        self._vanishing = vanishing
         self._order = _first_order(vehicle)
         self.system = linked(self._vehicle, self._order)
         motions = self.system.motions
-        self._rigid = motions.shape[1]
+        self._motions, self._rigid = motions.shape[1], self.system.rigid
         self._left_out = self._rigid if converged else 0
         self._vectors = _extended(self.system, motions[:, :0], motions)
         self._add_modes(modes)
@@ -103,27 +113,22 @@ class Reduction:
         point = found.point
         for step in range(CORRECTIONS):
             full = pencil(self.operators)
-            before, point = point, polish(full, found.kind, point.thrust, point.W)
+            before, point = point, self._polished(full, replace(found, point=point))
             change = abs(point.thrust - before.thrust)
             if not point.converged or (step and change <= SAME * point.thrust):
                 break
-            if not self._add_corrections(full, point):
+            known = self._vectors.shape[1]
+            kept = self._vectors[:, known - len(full.M) :]
+            for loads in unbalanced(self.system, kept, full, found.kind, point, self._vanishing):
+                self._vectors = _extended(self.system, self._vectors, self.system.deflected(loads), NOISE)
+            if self._vectors.shape[1] == known:
                 return point
         return replace(point, uncertainty=point.uncertainty + change)
 
-    def _add_corrections(self, full: Pencil, point: CriticalPoint) -> bool:
-        """Take in what the vectors of the double root leave unbalanced; whether there was anything."""
-        system, known = self.system, self._vectors.shape[1]
-        kept = self._vectors[:, known - len(full.M) :]
-        loaded = system.stiffness(point.thrust)
-        sides = zip((loaded, loaded.T), (point.right, point.left), chained(full, point), strict=True)
-        for stiffness, first, second in sides:
-            size = np.array([np.linalg.norm(first), np.linalg.norm(second)])
-            x = kept @ (np.column_stack((first, second)) / size)
-            unbalanced = stiffness @ x - point.W * (system.M @ x)
-            unbalanced[:, 1] -= system.M @ x[:, 0] * size[0] / size[1]
-            self._vectors = _extended(system, self._vectors, system.deflected(unbalanced), NOISE)
-        return self._vectors.shape[1] > known
+    def _polished(self, full: Pencil, guess: Instability) -> CriticalPoint:
+        if self._vanishing:
+            return vanishing_root(full, guess.point.thrust, guess.point.W)
+        return polish(full, guess.kind, guess.point.thrust, guess.point.W)
 
     def _corrected_modes(self, thrust: float, count: int) -> Spectrum:
         system = self.system
@@ -135,23 +140,25 @@ class Reduction:
                 break
             before = found.W
             x = self._vectors[:, self._left_out :] @ (found.shapes / np.sqrt(size))
-            unbalanced = system.stiffness(thrust) @ x - (system.M @ x) * found.W
-            loads = np.hstack((unbalanced.real, unbalanced.imag))
+            left = system.stiffness(thrust) @ x - (system.M @ x) * found.W
+            if found.s is not None:
+                left = left + (system.C @ x) * found.s
+            loads = np.hstack((left.real, left.imag))
             self._vectors = _extended(system, self._vectors, system.deflected(loads), NOISE)
         return found
 
     def _add_modes(self, least: int) -> None:
-        """The lowest modes, and what thrust changes in the lowest of them."""
-        system, rigid = self.system, self._rigid
+        """The lowest modes, and what thrust and damping change in the lowest of them."""
+        system = self.system
         loose = sum((j.rotational_stiffness == 0) + (j.shear_stiffness == 0) for j in self._vehicle.joints)
         modes = self._lowest_modes(BLOCK + loose, least, max(least, MOST_WATCHED + loose))
         low = np.hstack((system.motions, modes[:, : CORRECTED + loose]))
         groups = [modes]
-        for load in (system.K1, system.dead):
-            for side in () if load is None else (load, load.T):
-                first = system.deflected(side @ low)
-                groups += [first, system.deflected(side @ first[:, :TWICE_CORRECTED])]
-        self._vectors = self._vectors[:, :rigid]
+        sides = [side for load in (system.K1, system.dead) if load is not None for side in (load, load.T)]
+        for side in [*sides, system.C] if self._vehicle.damped else sides:
+            first = system.deflected(side @ low)
+            groups += [first, system.deflected(side @ first[:, :TWICE_CORRECTED])]
+        self._vectors = self._vectors[:, : self._motions]
         for group in groups:
             self._vectors = _extended(system, self._vectors, group)
 

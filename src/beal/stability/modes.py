@@ -58,8 +58,8 @@ def converged_modes(
         raise ModelError(f"count: must lie between 1 and {MOST_MODES}, found {count}")
     before: Array | None = None
     best: tuple[float, Spectrum, Array] | None = None
-    large = is_large(vehicle) and not vehicle.damped
     with one_thread():
+        large = is_large(vehicle)
         spectra = Reduction(vehicle, formulation, count).spectra if large else partial(_spectra, vehicle, formulation)
         for found in spectra(thrust, count):
             omega = np.sort(found.angular_frequency)

@@ -1,6 +1,6 @@
 """The eigenvalue problem of a loaded vehicle, K(P) x = W M x with W = omega^2, and its reduction."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
@@ -32,6 +32,8 @@ class Pencil:
         Damping; None where there is none.
     dead : ndarray, shape (n, n), optional
         Stiffness of the loads that do not grow with the thrust, not part of K0.
+    held : tuple of float
+        W of the rigid-body motions on a foundation that were left out since they only follow.
     """
 
     K0: Array
@@ -41,6 +43,7 @@ class Pencil:
     shift: float
     C: Array | None = None
     dead: Array | None = None
+    held: tuple[float, ...] = ()
 
     def stiffness(self, thrust: float) -> Array:
         """K(P), shape (n, n)."""
@@ -68,7 +71,8 @@ class Pencil:
             None if matrix is None else rotation.T @ (vectors.T @ matrix @ vectors) @ rotation
             for matrix in (self.C, self.dead)
         )
-        return Pencil(K0, rotation.T @ K1 @ rotation, np.diag(inertia), self.rigid, self.shift, C, dead)
+        K1, M = rotation.T @ K1 @ rotation, np.diag(inertia)
+        return replace(self, K0=K0, K1=K1, M=M, C=C, dead=dead)
 
 
 def pencil(operators: Operators) -> Pencil:
@@ -95,12 +99,33 @@ def pencil(operators: Operators) -> Pencil:
     return Pencil(operators.K0[select], operators.K1[select], operators.M[select], kept, shift, C, dead)
 
 
+def _without_followers(full: Pencil) -> Pencil:
+    """The pencil without translation and rotation on a foundation in proportion to the mass, W = k/m at every thrust.
+
+    They drive nothing that is kept; rotation may drive translation, and the double root then has one eigenvector.
+    """
+    while not full.rigid and len(full.held) < 2 and _only_follows(full):
+        K0, K1, M = (matrix[1:, 1:] for matrix in (full.K0, full.K1, full.M))
+        C, dead = (None if matrix is None else matrix[1:, 1:] for matrix in (full.C, full.dead))
+        held = (*full.held, float(full.K0[0, 0] / full.M[0, 0]))
+        full = replace(full, K0=K0, K1=K1, M=M, C=C, dead=dead, held=held)
+    return full
+
+
+def _only_follows(full: Pencil) -> bool:
+    """Whether the first coordinate acts on none of the others and feels no thrust of its own."""
+    columns = [(matrix, matrix[1:, 0]) for matrix in (full.M, full.K0, full.C) if matrix is not None]
+    columns += [(load, load[:, 0]) for load in (full.K1, full.dead) if load is not None]
+    return all(np.abs(column).max(initial=0.0) <= UNCOUPLED * np.abs(matrix).max() for matrix, column in columns)
+
+
 def reduced(full: Pencil, modes: int = MODES) -> Pencil:
     """The pencil in its lowest modes and the changes of the lowest few under thrust.
 
     Modes of the unloaded vehicle converge slowly where thrust acts on a joint; with K^-1 K1 v and K^-1 K1^T v of the
     lowest modes v beside them, sixteen vectors do what hundreds of modes do.
     """
+    full = _without_followers(full)
     static = full.K0 + full.shift * full.M
     modes = min(modes + full.rigid, len(static))
     _, vectors = scipy.linalg.eigh(full.M, static)

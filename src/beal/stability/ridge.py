@@ -218,6 +218,7 @@ def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:
     """The neighbouring modes closest to W at a thrust, elastic ones counted from 1, a rigid-body root as 0."""
     roots = pencil.roots(thrust)
     first = int(np.argmin(np.abs(roots[1:] - W) + np.abs(roots[:-1] - W))) + 1 - pencil.rigid
+    first += sum(held < W for held in pencil.held)
     return first, first + 1
 
 

@@ -133,7 +133,7 @@ def panel(
         halves = []
         for choice in choices:
             operators = discretise(with_values(vehicle, choice), formulation, order=n)
-            if pencil(operators).rigid:
+            if pencil(operators).rigid or reduced(pencil(operators)).held:
                 return None
             halves.append(_patches(operators, springs, ends, edges))
         tables.append(_in_order(np.concatenate(halves, axis=1), paths))

@@ -13,10 +13,11 @@ import scipy.linalg
 
 from beal.discretisation.build import Formulation, discretise
 from beal.errors import ModelError
-from beal.stability.critical import COMPLETE_SPARE, CriticalThrust, critical_thrust
-from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct
+from beal.stability.critical import COMPLETE_SPARE, MOST_DAMPED, CriticalThrust, critical_thrust
+from beal.stability.damped import CLOSEST, FLUTTER, GROWING, Crossing, closest_mode, crossings, distinct, unloaded
 from beal.stability.double_root import CriticalPoint
 from beal.stability.imaginary_root import damping_of, vanishing_root
+from beal.stability.large import Reduction, is_large
 from beal.stability.pencil import Array, Pencil, pencil, reduced
 from beal.stability.refine import default_tolerance, first_order, ladder, refined
 from beal.stability.ridge import Instability, Kind
@@ -51,12 +52,12 @@ def vanishing_damping_limit(
     -------
     CriticalThrust
         With the undamped vehicle's kind, modes and thrust where the limit is the same; else flutter of one mode, named
-        twice. The limit is 0 where a damping feeds a mode under any thrust.
+        twice. The limit is 0 where a damping feeds a mode under any thrust, or under the dead loads alone.
 
     Raises
     ------
     ModelError
-        If the vehicle has no damping, or an option does not apply.
+        If the vehicle has no damping, its dead loads alone make it unstable without, or an option does not apply.
     ConvergenceError
         If the tolerance is not reached.
 
@@ -84,17 +85,22 @@ def vanishing_damping_limit(
         return undamped
     with one_thread():
         limit = elastic.critical_thrust or elastic.searched_to
-        operators = discretise(vehicle, formulation, order=first_order(vehicle, "legendre"))
-        plain = reduced(pencil(replace(operators, C=None)), elastic.watched_modes + COMPLETE_SPARE)
-        small = reduced(pencil(operators), elastic.watched_modes + COMPLETE_SPARE)
-        found = _first_fed(small, limit, elastic.watched_modes)
+        large = Reduction(vehicle, formulation, vanishing=True) if is_large(vehicle) else None
+        operators = (
+            large.operators if large else discretise(vehicle, formulation, order=first_order(vehicle, "legendre"))
+        )
+        watched = min(elastic.watched_modes, MOST_DAMPED)
+        full = pencil(operators)
+        plain = reduced(replace(full, C=None), watched + COMPLETE_SPARE)
+        small = reduced(full, watched + COMPLETE_SPARE)
+        parted = len(plain.held) == 2 and not small.held
+        found = _parted(plain, limit) if parted else _first_fed(small, plain, limit, watched)
         if found is None:
             return undamped
-        thrust, W = found
-        mode = closest_mode(plain, thrust, W, limit)
+        thrust, W, mode = found
         nothing = np.empty(0)
         guess = Instability(CriticalPoint(thrust, W, True, 0.0, nothing, nothing), FLUTTER, (mode, mode))
-        steps = partial(ladder, vehicle, formulation, "legendre", polish=_polish)
+        steps = large.points if large else partial(ladder, vehicle, formulation, "legendre", polish=_polish)
         point, error = refined(guess, steps(guess), tolerance or default_tolerance(vehicle, "legendre"))
     first = replace(
         elastic,
@@ -103,6 +109,7 @@ def vanishing_damping_limit(
         modes=(mode, mode),
         angular_frequency=float(np.sqrt(point.W)),
         error_estimate=error,
+        watched_modes=watched,
         border=False,
     )
     return first if undamped.elastic is None else replace(undamped, elastic=first)
@@ -112,8 +119,8 @@ def _polish(full: Pencil, kind: Kind, thrust: float, W: float) -> CriticalPoint:
     return vanishing_root(full, thrust, W)
 
 
-def _first_fed(small: Pencil, limit: float, watched: int) -> tuple[float, float] | None:
-    """Thrust and W at which a vanishing damping first feeds a mode, below a limit up to which all roots are real."""
+def _first_fed(small: Pencil, plain: Pencil, limit: float, watched: int) -> tuple[float, float, int] | None:
+    """Thrust, W and number of the mode that a vanishing damping first feeds, below a limit where all roots are real."""
     found: list[Crossing] = []
     for thrust in crossings(small, limit, vanishing=True):
         W, drained = _drained(small, thrust, watched)
@@ -127,8 +134,22 @@ def _first_fed(small: Pencil, limit: float, watched: int) -> tuple[float, float]
         W, drained = _drained(small, middle, watched)
         worst = int(np.argmin(drained / np.sqrt(W)))
         if drained[worst] < -GROWING * np.sqrt(W[worst]):
-            return found[start - 1][:2] if start else (0.0, float(W[worst]))
+            if start:
+                thrust, W_fed, _ = found[start - 1]
+                return thrust, W_fed, closest_mode(plain, thrust, W_fed, limit)
+            mode = closest_mode(plain, middle, float(W[worst]), limit)
+            return 0.0, unloaded(plain, mode), mode
     return None
+
+
+def _parted(plain: Pencil, limit: float) -> tuple[float, float, int]:
+    """The same where damping couples translation and rotation of one frequency on a foundation: nothing is borne.
+
+    Under thrust the two roots have one eigenvector x, and move by the square root of -i e omega psi^T C x, which feeds
+    one of them unless it vanishes.
+    """
+    W = min(plain.held)
+    return 0.0, W, closest_mode(plain, 0.0, W, limit)
 
 
 def _drained(small: Pencil, thrust: float, watched: int) -> tuple[Array, Array]:

@@ -60,6 +60,7 @@ def solve_together(vehicle: Vehicle, paths: tuple[str, ...], values: Array, solv
     _search(result, np.flatnonzero(~soft), vehicle, paths, values, solve, limit, even, False)
     left = np.flatnonzero(kind == UNDECIDED)
     if len(left) >= WORTHWHILE:
+        result.border[left] = False  # decided anew
         _search(result, left, vehicle, paths, values, solve, limit, graded, True)
     return result
 

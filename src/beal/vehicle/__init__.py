@@ -1,7 +1,7 @@
 """What the user describes: the parts of a vehicle, the vehicle, its file format and a catalog."""
 
 from beal.vehicle import catalog
-from beal.vehicle.file import dumps, load, loads
+from beal.vehicle.file import dumps, loads
 from beal.vehicle.parts import (
     AxialLoad,
     Damping,
@@ -42,7 +42,6 @@ __all__ = [
     "Vehicle",
     "catalog",
     "dumps",
-    "load",
     "loads",
     "value_at",
     "with_values",

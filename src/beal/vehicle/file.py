@@ -16,26 +16,6 @@ from beal.vehicle.vehicle import Vehicle
 LARGEST_FILE = 5_000_000  # bytes: a hundred thousand stages
 
 
-def load(path: str | os.PathLike[str]) -> Vehicle:
-    """Read a vehicle from a model file.
-
-    Parameters
-    ----------
-    path : str or path-like
-        A TOML file. In SI files (the default) a quantity is a number or a string with a unit, such as ``"12 ft"``.
-
-    Returns
-    -------
-    Vehicle
-
-    Raises
-    ------
-    ModelError
-        With every problem in the file, each with its path, or the reason why the file cannot be read.
-    """
-    return vehicle_from(read_toml(path), str(path))
-
-
 def loads(text: str, source: str = "model") -> Vehicle:
     """Read a vehicle from the text of a model file.
 

@@ -19,15 +19,11 @@ def combine(w, tables, out):
 @compiled
 def critical(edges, patches, coarser, low, high, patch, rows, w, P, W, i):
     """Root of D = D_W = 0, or of D(P, 0) = 0 for i = 0, next to a guess: thrust, W, error, whether it converged."""
-    own, sign = -1, 1.0 - 2.0 * (i & 1)
+    q, sign = -1, 1.0 - 2.0 * (i & 1)
     for _ in range(NEWTON):
-        if not inside(edges, low, high, P, W):
+        q, D, D_P, D_W, D_WW, D_WP, _ = on_patch(edges, patches, low, high, patch, rows, w, P, W, q)
+        if q < 0:
             break
-        q = patch_of(edges, W)
-        if q != own:
-            own = q
-            combine(w, patches[q], patch.ravel())
-        D, D_P, D_W, D_WW, D_WP, _ = derivatives(patch, rows, low, high, edges[q], edges[q + 1], P, W)
         if i == 0:
             step_P, step_W = D / D_P, 0.0
         else:
@@ -46,15 +42,11 @@ def critical(edges, patches, coarser, low, high, patch, rows, w, P, W, i):
 @compiled
 def bottom(edges, patches, low, high, patch, rows, w, P, W, i):
     """The lowest point of a ridge next to a guess: thrust, W, height, uncertainty of the height."""
-    own, sign = -1, 1.0 - 2.0 * (i & 1)
+    q, sign = -1, 1.0 - 2.0 * (i & 1)
     for _ in range(NEWTON):
-        if not inside(edges, low, high, P, W):
+        q, D, D_P, D_W, D_WW, D_WP, D_PP = on_patch(edges, patches, low, high, patch, rows, w, P, W, q)
+        if q < 0:
             break
-        q = patch_of(edges, W)
-        if q != own:
-            own = q
-            combine(w, patches[q], patch.ravel())
-        D, D_P, D_W, D_WW, D_WP, D_PP = derivatives(patch, rows, low, high, edges[q], edges[q + 1], P, W)
         if i == 0:
             step_P, step_W = D_P / D_PP, 0.0
         else:
@@ -67,6 +59,18 @@ def bottom(edges, patches, low, high, patch, rows, w, P, W, i):
         P -= step_P
         W -= step_W
     return np.inf, W, 0.0, 0.0
+
+
+@compiled
+def on_patch(edges, patches, low, high, patch, rows, w, P, W, own):
+    """The patch that holds a point, -1 off the panel, and the derivatives there; ``patch`` holds that of ``own``."""
+    if not inside(edges, low, high, P, W):
+        return -1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    q = patch_of(edges, W)
+    if q != own:
+        combine(w, patches[q], patch.ravel())
+    D, D_P, D_W, D_WW, D_WP, D_PP = derivatives(patch, rows, low, high, edges[q], edges[q + 1], P, W)
+    return q, D, D_P, D_W, D_WW, D_WP, D_PP
 
 
 @compiled

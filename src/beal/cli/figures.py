@@ -1,0 +1,154 @@
+"""What commands draw with ``--figure``: a file of the kind that its name's ending says."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from beal.cli.output import new_path, note
+from beal.errors import ModelError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from beal.discretisation.operators import Operators
+    from beal.motion import Response
+    from beal.stability.complete import Event
+    from beal.stability.critical import CriticalThrust
+    from beal.stability.curve import ThrustCurve
+    from beal.stability.spectrum import Spectrum
+    from beal.vehicle.vehicle import Vehicle
+
+Quantity = Literal["displacement", "rate", "slope"]
+FORMATS = (".png", ".svg", ".pdf")
+DOTS = 300  # per inch of a picture, as printers ask for
+WIDE, HIGH = 5.0, 3.0  # of a panel, inches
+QUANTITIES: tuple[Quantity, ...] = ("displacement", "rate", "slope")
+
+Draw = Callable[[], "Figure"]
+
+
+@contextmanager
+def new_figure(path: Path | None, quiet: bool) -> Iterator[Callable[[Draw], None]]:
+    """Writes a figure, refusing before any work what could not be written.
+
+    Parameters
+    ----------
+    path : Path or None
+        Nothing is drawn for None.
+    quiet : bool
+        Whether nothing is said about it.
+
+    Raises
+    ------
+    ModelError
+        If the ending is none of a figure's, matplotlib is not installed, or no file can be written there.
+    """
+    if path is None:
+        yield lambda draw: None
+        return
+    if path.suffix.lower() not in FORMATS:
+        known = ", ".join(FORMATS)
+        raise ModelError(f"--figure: must end with one of {known}, found {path.suffix or 'no ending'}", str(path))
+    try:
+        from beal.plot import style
+    except ModuleNotFoundError as error:
+        if not str(error.name).startswith("matplotlib"):
+            raise
+        raise ModelError("--figure: needs matplotlib, which is not installed; install beal[plot]") from None
+    with new_path(path) as part:
+
+        def write(draw: Draw) -> None:
+            kind = path.suffix.lower().removeprefix(".")
+            dates = {} if kind == "png" else {"Date" if kind == "svg" else "CreationDate": None}  # the same each time
+            with style():
+                draw().savefig(part, format=kind, dpi=DOTS, metadata=dates)
+
+        yield write
+    if not quiet:
+        note(f"figure written to {path}")
+
+
+def named(path: Path | None) -> dict[str, str]:
+    """The figure's entry in a JSON object, if there is one."""
+    return {"figure": str(path)} if path else {}
+
+
+def vehicle_figure(vehicle: "Vehicle") -> "Figure":
+    """The vehicle."""
+    from beal import plot
+
+    return _fitted(lambda ax: plot.vehicle(vehicle, ax))
+
+
+def modes_figure(spectrum: "Spectrum", operators: "Operators") -> "Figure":
+    """The vehicle bent by each mode."""
+    from beal import plot
+
+    return _fitted(lambda ax: plot.mode_shapes(spectrum, operators, ax))
+
+
+def curve_figure(
+    vehicle: "Vehicle", curve: "ThrustCurve", critical: "CriticalThrust", events: "list[Event]"
+) -> "Figure":
+    """Frequencies over growth rates; of a damped vehicle the root locus too."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(WIDE * (1.8 if vehicle.damped else 1.0), 2 * HIGH), layout="constrained")
+    plain = vehicle.units == "nondimensional"
+    columns: Any = figure.subfigures(1, 2, width_ratios=(1.0, 0.8)) if vehicle.damped else (figure,)
+    upper, lower = columns[0].subplots(2, 1, sharex=True)
+    plot.thrust_curve(curve, upper, critical, nondimensional=plain, events=events)
+    plot.growth_rates(curve, lower, critical, nondimensional=plain)
+    upper.set_xlabel("")
+    columns[0].align_ylabels()
+    if vehicle.damped:
+        plot.root_locus(curve, columns[1].subplots(), critical, nondimensional=plain)
+    return figure
+
+
+def response_figure(found: "Response", nondimensional: bool) -> "Figure":
+    """Deflection, rate and slope over time, a column for each sensor."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    number = len(found.sensors)
+    figure = Figure(figsize=(WIDE * max(1.0, 0.7 * number), 2 * HIGH), layout="constrained")
+    panels = figure.subplots(len(QUANTITIES), number, sharex=True, squeeze=False)
+    for sensor, column in zip(found.sensors, panels.T, strict=True):
+        column[0].set_title(sensor, loc="left")
+        for quantity, ax in zip(QUANTITIES, column, strict=True):
+            plot.response(found, ax, sensor, quantity, nondimensional)
+            ax.label_outer()
+    return figure
+
+
+def map_figure(out: str, refined: bool) -> "Figure":
+    """The critical thrust over two axes, from the result of a map."""
+    import xarray
+    from matplotlib.figure import Figure
+
+    from beal import plot
+    from beal.study.points import GROUP
+    from beal.study.refined import RefinedMap
+
+    figure = Figure(figsize=(WIDE, 1.3 * HIGH), layout="constrained")
+    with xarray.open_zarr(out, chunks=None) as grid:
+        chart = RefinedMap(grid, xarray.open_zarr(out, group=GROUP, chunks=None)) if refined else grid
+        plot.stability_map(chart, figure.subplots())
+    return figure
+
+
+def _fitted(draw: "Callable[[Axes], Axes]") -> "Figure":
+    """A figure as high as the drawing in it; first it is higher, so that only its width limits the drawing."""
+    from matplotlib.figure import Figure
+
+    from beal.plot.style import fitted
+
+    figure = Figure(figsize=(WIDE, 4 * WIDE), layout="constrained")
+    fitted(draw(figure.subplots()))
+    return figure
