@@ -16,7 +16,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-CLUSTERS, INTEROP, MAPS = (PAGES.get(name, "") for name in ("clusters", "interop", "maps"))
+NAMES = ("clusters", "flight", "interop", "maps", "model")
+CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -81,10 +82,19 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "interop", "maps", "verification"]  # the last is all output of beal verify
+    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model", "verification"]
+    assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
+    assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
+    assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
+
+
+def test_the_model_of_the_page_on_model_files_is_understood(tmp_path):
+    (tmp_path / "sounder.toml").write_text(blocks("toml", MODEL)[0])
+    for block in blocks("console", MODEL):
+        assert run([*BEAL, *shlex.split(block.removeprefix("$ "))[1:]], tmp_path)
 
 
 @pytest.fixture
@@ -119,6 +129,33 @@ def test_the_maps_of_the_page_on_maps_are_as_shown(readme_folder):
     for block in blocks("console", MAPS):
         command, _, shown = block.partition("\n")
         assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], readme_folder).strip() == shown.strip()
+
+
+@pytest.fixture
+def flight_folder(tmp_path):
+    (tmp_path / "launcher.toml").write_text(blocks("toml", FLIGHT)[0])
+    (tmp_path / "ascent.csv").write_text(blocks("csv", FLIGHT)[0])
+    return tmp_path
+
+
+def test_the_flight_of_the_page_on_flights_is_as_shown(flight_folder):
+    (block,) = blocks("console", FLIGHT)
+    command, _, shown = block.partition("\n")
+    printed = run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], flight_folder)
+    assert [line.rstrip() for line in printed.splitlines()] == shown.splitlines()
+    assert {"flight.csv", "flight.png"} < {path.name for path in flight_folder.iterdir()}
+
+
+def test_the_python_of_the_page_on_flights_prints_what_it_says(flight_folder):
+    (block,) = blocks("python", FLIGHT)
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], flight_folder).strip() == expected
+
+
+def test_the_inline_timeline_of_the_page_on_flights_is_understood(flight_folder):
+    model, inline = blocks("toml", FLIGHT)
+    (flight_folder / "launcher.toml").write_text(model.partition("[timeline]")[0] + inline)
+    assert "188.7" in run([*BEAL, "flight", "launcher.toml"], flight_folder)
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))
@@ -180,7 +217,7 @@ def test_the_benchmark_runs(tmp_path):
     assert "times the plain way's points per second" in printed
 
 
-@pytest.mark.parametrize("model", ["two_stages.toml", "sounding_rocket.toml"])
+@pytest.mark.parametrize("model", ["two_stages.toml", "sounding_rocket.toml", "generic_small_launcher.toml"])
 @pytest.mark.parametrize("command", ["check", "modes", "critical"])
 def test_an_example_model_is_understood_by_every_command(model, command):
     assert run([*BEAL, command, str(EXAMPLES / model)], EXAMPLES)

@@ -19,6 +19,7 @@ if _typing.TYPE_CHECKING:
     from beal.stability.curve import ThrustCurve, thrust_curve
     from beal.stability.spectrum import Spectrum, spectrum
     from beal.stability.vanishing import vanishing_damping_limit
+    from beal.study.flight import Flight, FlightState, flight
     from beal.study.map import stability_map
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
@@ -36,6 +37,8 @@ if _typing.TYPE_CHECKING:
         Support,
         Thrust,
     )
+    from beal.vehicle.tanks import Tank
+    from beal.vehicle.timeline import Timeline
     from beal.vehicle.vehicle import Vehicle
     from beal.verification.run import verify
 
@@ -50,6 +53,8 @@ _HOMES = {
     "DistributedThrust": "beal.vehicle.parts",
     "ElasticEnd": "beal.vehicle.parts",
     "Event": "beal.stability.complete",
+    "Flight": "beal.study.flight",
+    "FlightState": "beal.study.flight",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
     "ModeShape": "beal.motion",
@@ -64,9 +69,12 @@ _HOMES = {
     "Spectrum": "beal.stability.spectrum",
     "Stage": "beal.vehicle.parts",
     "Support": "beal.vehicle.parts",
+    "Tank": "beal.vehicle.tanks",
     "Thrust": "beal.vehicle.parts",
     "ThrustCurve": "beal.stability.curve",
+    "Timeline": "beal.vehicle.timeline",
     "Vehicle": "beal.vehicle.vehicle",
+    "flight": "beal.study.flight",
     "growth_rate": "beal.motion",
     "catalog": "beal.vehicle.catalog",
     "critical_events": "beal.stability.critical",
@@ -94,6 +102,8 @@ __all__ = [
     "DistributedThrust",
     "ElasticEnd",
     "Event",
+    "Flight",
+    "FlightState",
     "Force",
     "Joint",
     "ModeShape",
@@ -108,14 +118,17 @@ __all__ = [
     "Spectrum",
     "Stage",
     "Support",
+    "Tank",
     "Thrust",
     "ThrustCurve",
+    "Timeline",
     "Vehicle",
     "catalog",
     "critical_events",
     "critical_thrust",
     "discretise",
     "dumps",
+    "flight",
     "growth_rate",
     "load",
     "loads",

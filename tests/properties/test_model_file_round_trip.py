@@ -67,11 +67,37 @@ signal = st.one_of(
 
 
 @st.composite
+def tank(draw, name, length):
+    ends = sorted(draw(st.lists(st.integers(0, 100), min_size=2, max_size=2, unique=True)))
+    forward, aft = (n / 100 * length for n in ends)
+    content = draw(along(aft - forward, positive))
+    return {"name": name, "forward_end": forward, "aft_end": aft, "mass_per_length": content, "fill": draw(share)}
+
+
+@st.composite
+def timeline(draw, tanks, stages):
+    times = sorted(draw(st.lists(st.integers(0, 100), min_size=1, max_size=4, unique=True)))
+
+    def history(value):
+        return draw(st.lists(value, min_size=len(times), max_size=len(times)))
+
+    spans = st.integers(1, stages).flatmap(lambda last: st.integers(1, last).map(lambda first: f"{first}-{last}"))
+    named = draw(st.sets(st.sampled_from(tanks))) if tanks else ()
+    return {
+        "time": times,
+        "thrust": history(positive),
+        "fill": {name: history(share) for name in named},
+        "stages": draw(st.sampled_from([(), history(spans)])),
+    }
+
+
+@st.composite
 def vehicles(draw):
     stages = draw(st.lists(stage, min_size=1, max_size=4))
     length = math.fsum(item["length"] for item in stages)
     stations = share.map(lambda x: x * length)
     names = draw(st.lists(text, max_size=3, unique=True))
+    tanks = draw(st.lists(text, max_size=2, unique=True))
     return Vehicle(
         title=draw(text),
         units=draw(st.sampled_from(["SI", "nondimensional"])),
@@ -83,6 +109,7 @@ def vehicles(draw):
                 max_size=2,
             )
         ),
+        tanks=[draw(tank(name, length)) for name in tanks],
         support={"nose": draw(end), "tail": draw(end)},
         thrust=draw(
             st.fixed_dictionaries(
@@ -108,6 +135,7 @@ def vehicles(draw):
         gravity=draw(signed),
         sensors=[{"name": name, "station": draw(stations)} for name in names],
         forces=draw(st.lists(st.fixed_dictionaries({"station": stations, "signal": signal}), max_size=2)),
+        timeline=draw(st.none() | timeline(tanks, len(stages))),
     )
 
 

@@ -89,8 +89,8 @@ def test_all_problems_are_listed_under_the_name_of_the_file(tmp_path):
     path.write_text("[[stages]]\n[fuel]\n" + STAGE.replace("1.0", "-1.0", 1) + "[[joint]]\n[thrust]\ntangent = 1")
     with pytest.raises(ModelError) as caught:
         load(path)
-    known = "title, units, stage, joint, point_mass, support, thrust, damping, distributed_thrust, "
-    known += "axial_load, gravity, sensor, force"
+    known = "title, units, stage, joint, point_mass, tank, support, thrust, damping, distributed_thrust, "
+    known += "axial_load, gravity, sensor, force, timeline"
     assert str(caught.value).splitlines() == [
         f"{path}: 5 problems",
         f"  stages: unknown key; known here: {known}",

@@ -9,6 +9,7 @@ from beal import __version__
 from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
+from beal.cli.flight import flight
 from beal.cli.maps import map_study, reproduce
 from beal.cli.models import check, example
 from beal.cli.modes import modes
@@ -20,6 +21,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "modes": (modes, "beal modes tsto.toml --count 4 --thrust 90"),
     "critical": (critical, "beal critical tsto.toml --all --json"),
     "curve": (curve, "beal curve tsto.toml --to 150 -o curve.csv"),
+    "flight": (flight, "beal flight launcher.toml --figure flight.png"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from beal.stability.critical import CriticalThrust
     from beal.stability.curve import ThrustCurve
     from beal.stability.spectrum import Spectrum
+    from beal.study.flight import Flight
     from beal.vehicle.vehicle import Vehicle
 
 Quantity = Literal["displacement", "rate", "slope"]
@@ -80,6 +81,17 @@ def vehicle_figure(vehicle: "Vehicle") -> "Figure":
     from beal import plot
 
     return _fitted(lambda ax: plot.vehicle(vehicle, ax))
+
+
+def flight_figure(found: "Flight") -> "Figure":
+    """Frequencies, thrusts and margins over a flight."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    page = Figure(figsize=(6.4, 5.2), layout="constrained")
+    plot.flight(found, page.subplots())
+    return page
 
 
 def modes_figure(spectrum: "Spectrum", operators: "Operators") -> "Figure":

@@ -9,8 +9,7 @@ import typer
 
 from beal.cli.figures import map_figure, named, new_figure
 from beal.cli.options import AsJson, Figure
-from beal.cli.output import check_folder, emit, make_folder, note
-from beal.cli.progress import progress_bar
+from beal.cli.output import check_folder, emit, make_folder, note, progress_bar
 from beal.errors import ModelError
 
 if TYPE_CHECKING:

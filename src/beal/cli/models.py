@@ -24,6 +24,7 @@ UNITS = {
     "from": "m",
     "to": "m",
     "station": "m",
+    "surface": "m",
     "mass_per_length": "kg/m",
     "bending_stiffness": "N m^2",
     "foundation_stiffness": "N/m^2",

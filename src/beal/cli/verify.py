@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from beal.cli.options import AsJson
-from beal.cli.output import digits, emit, show_table
-from beal.cli.progress import progress_bar
+from beal.cli.output import digits, emit, progress_bar, show_table
 from beal.errors import ConvergenceError, ModelError
 
 if TYPE_CHECKING:

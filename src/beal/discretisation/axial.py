@@ -72,7 +72,7 @@ def _dead(vehicle: Vehicle, applied: Array, mass_forward: Array) -> Array:
 
 def _mass_forward(vehicle: Vehicle, stations: Array) -> Array:
     forward = np.interp(stations, vehicle.boundaries, _stages_forward(vehicle))
-    for n, stage in enumerate(vehicle.stages):
+    for n, stage in enumerate(vehicle.laden):
         if isinstance(stage.mass_per_length, StationTable):
             front, back = vehicle.boundaries[n : n + 2]
             here = (stations >= front) & (stations <= back)
@@ -107,4 +107,4 @@ def _distributed_forward(vehicle: Vehicle, stations: Array) -> Array | float:
 
 def _stages_forward(vehicle: Vehicle) -> Array:
     """Mass of the stages forward of each boundary, shape (stages + 1,)."""
-    return np.cumsum([0.0] + [stage.mass for stage in vehicle.stages])
+    return np.cumsum([0.0] + [stage.mass for stage in vehicle.laden])

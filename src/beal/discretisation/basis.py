@@ -51,8 +51,8 @@ def segments(vehicle: Vehicle, pieces: int = 1, few: int = FEW) -> tuple[Segment
     for stage, (front, back) in enumerate(zip(vehicle.boundaries, vehicle.boundaries[1:], strict=False)):
         ends = [front]
         inner = loads[bisect_left(loads, front) : bisect_left(loads, back)]
-        if vehicle.stages[stage].tables:
-            inner = sorted([*inner, *(front + x for x in cuts(vehicle.stages[stage], vehicle.length, few))])
+        if vehicle.laden[stage].tables:
+            inner = sorted([*inner, *(front + x for x in cuts(vehicle.laden[stage], vehicle.length, few))])
         for station in inner:
             if ends[-1] + margin < station < back - margin:
                 ends.append(station)

@@ -101,7 +101,7 @@ def inertial(vehicle: Vehicle) -> Vehicle:
 
 def check_ritz(vehicle: Vehicle, formulation: str) -> None:
     """Refuse vehicles to which the modes of Irani & Kavianipour (2009), Eq. (10), do not belong."""
-    stages = vehicle.stages
+    stages = vehicle.laden
     reasons = []
     if len(stages) != 2:
         reasons.append(f"two stages, found {len(stages)}")

@@ -37,7 +37,7 @@ class Points:
 
     def property(self, name: str) -> Array:
         """A property of the stages at the points."""
-        given = [getattr(stage, name) for stage in self.vehicle.stages]
+        given = [getattr(stage, name) for stage in self.vehicle.laden]
         varying = [n for n, value in enumerate(given) if isinstance(value, StationTable)]
         found = np.repeat([0.0 if n in varying else value for n, value in enumerate(given)], self.each)
         for n in varying:

@@ -163,7 +163,7 @@ def pieces(vehicle: Vehicle, chain: Sequence[Segment], order: int) -> dict[int, 
     return {
         index: Pieces(stage, segment.start - vehicle.boundaries[segment.stage], segment.length, order)
         for index, segment in enumerate(chain)
-        if (stage := vehicle.stages[segment.stage]).tables
+        if (stage := vehicle.laden[segment.stage]).tables
     }
 
 

@@ -70,6 +70,7 @@ def nastran_text(vehicle: Vehicle, elements: int = 8) -> str:
     """
     if elements < 1:
         raise ModelError([("elements", f"must be at least 1, found {elements}")])
+    vehicle = vehicle.without_tanks
     _check(vehicle)
     named = {
         kind: all(_is_title(part.name) for part in parts)

@@ -32,6 +32,7 @@ def station_rows(vehicle: Vehicle) -> list[list[Cell]]:
     [0.0, 1.0, 1.0]
     [1.0, 1.0, 1.0]
     """
+    vehicle = vehicle.without_tanks
     names = [name for name in PROPERTIES if name in REQUIRED or _is_given(vehicle, name)]
     units = {"x": "m", **{name: PROPERTIES[name] for name in names}}
     head = [f"{name} [{unit}]" if vehicle.units == "SI" else name for name, unit in units.items()]

@@ -2,6 +2,7 @@
 
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
+from beal.plot.flight import flight
 from beal.plot.histories import response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.shapes import deflections, mode_shapes
@@ -9,6 +10,7 @@ from beal.plot.style import style
 
 __all__ = [
     "deflections",
+    "flight",
     "growth_rates",
     "mode_shapes",
     "response",

@@ -11,7 +11,7 @@ from matplotlib.patches import Polygon
 
 from beal.plot.body import Section, flexible, gap, sections
 from beal.plot.captions import Caption, arranged, height, write
-from beal.plot.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, TINTS, VERMILION, along, axes, fitted, style
+from beal.plot.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, TINTS, VERMILION, along, axes, fitted, style
 from beal.plot.symbols import LINE, arrow, coil, disc, ground, pin, spring
 from beal.vehicle.parts import DistributedThrust, Joint
 from beal.vehicle.stations import values
@@ -27,6 +27,7 @@ ARROW = 0.10
 BESIDE = 0.015  # between the body and what is drawn beside it
 SPACING = 0.05  # of the arrows of a distributed load, and of the springs of a foundation
 MARGIN = 0.02
+TANK = 0.75  # width over that of the body
 
 Captions = Iterator[Caption]
 
@@ -85,7 +86,7 @@ def vehicle(vehicle: Vehicle, ax: "Axes | None" = None) -> "Axes":
         _supports(sketch)
         _foundation(sketch)
         above = [caption for part in (_stages, _thrust, _distributed, _sensors) for caption in part(sketch)]
-        below = [caption for part in (_joints, _masses, _axial_loads, _forces) for caption in part(sketch)]
+        below = [caption for part in (_tanks, _joints, _masses, _axial_loads, _forces) for caption in part(sketch)]
         target.plot([0.0, vehicle.length], [0.0, 0.0], color=GREY, linewidth=0.6, dashes=(9, 3, 2, 3), zorder=3)
         _frame(sketch, above, below, own=ax is None)
         return target
@@ -124,6 +125,19 @@ def _springs(ax: "Axes", joint: Joint, x: float, half: float, width: float) -> N
         y = -0.55 * half if slides else 0.0
         ax.plot([x - width, x + width], [y, y], **LINE)
         disc(ax, (x, y), min(0.6 * width, 0.4 * half), facecolor=ORANGE, zorder=5)
+
+
+def _tanks(sketch: _Sketch) -> Captions:
+    """Tanks inside the body, their liquid at the aft end."""
+    for tank in sketch.vehicle.tanks:
+        x = np.union1d(np.linspace(tank.forward_end, tank.aft_end, 41), tank.surface)
+        half = TANK * np.array([sketch.half_width(station) for station in x])
+        wet = x >= tank.surface
+        for body, color in ((Section(x, half), "white"), (Section(x[wet], half[wet]), SKY)):
+            look = {"facecolor": color, "edgecolor": BLACK, "linewidth": 0.6, "zorder": 2.5}
+            sketch.ax.add_patch(Polygon(body.outline(), closed=True, **look))
+        middle = (tank.forward_end + tank.aft_end) / 2
+        yield Caption(middle, -sketch.half_width(middle), tank.name)
 
 
 def _masses(sketch: _Sketch) -> Captions:

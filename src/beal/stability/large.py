@@ -192,7 +192,7 @@ def _first_order(vehicle: Vehicle) -> int:
 
 def _highest_root(vehicle: Vehicle) -> float:
     """W below which the rigidly jointed vehicle would have ``WATCHED`` modes (WKB)."""
-    smeared = vehicle.mass / sum(stage.mass for stage in vehicle.stages)  # the point masses
+    smeared = vehicle.mass / sum(stage.mass for stage in vehicle.laden)  # the point masses
     return ((WATCHED + 0.5) * math.pi / float(waves(vehicle).sum())) ** 4 / smeared
 
 

@@ -20,6 +20,8 @@ from beal.vehicle.parts import (
     Thrust,
 )
 from beal.vehicle.paths import value_at, with_values
+from beal.vehicle.tanks import Tank
+from beal.vehicle.timeline import Timeline
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
@@ -38,7 +40,9 @@ __all__ = [
     "Step",
     "Support",
     "Table",
+    "Tank",
     "Thrust",
+    "Timeline",
     "Vehicle",
     "catalog",
     "dumps",

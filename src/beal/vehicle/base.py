@@ -1,10 +1,11 @@
 """What every part of a vehicle shares: frozen, validated, every problem named by its path."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beal.errors import ModelError
 from beal.units import to_si
@@ -16,11 +17,13 @@ else:
 
 CONTAINERS = {
     "tuple_type": "a list (of tables: [[name]], not [name])",
+    "dict_type": "a table",
     "model_type": "a table",
     "model_attributes_type": "a table",
 }
 
 
+Misfit = tuple[tuple[str | int, ...], str, Any]  # location, message, input
 PLAIN, TABLE = "a plain value", "a table"  # tags of the forms of a field, in pydantic's locations only
 
 
@@ -45,11 +48,44 @@ class Part(BaseModel, metaclass=_Checked):
         return type(self)(**fields | dict(update or {}))
 
 
+def together(kind: type[Part], data: Any, handler: Any, misfits: Callable[[dict[str, Any]], Iterable[Misfit]]) -> Any:
+    """A part from raw input; checks across fields run even where one is wrong: all problems are reported at once."""
+    errors: list[InitErrorDetails] = []
+    try:
+        part = handler(data)
+    except ValidationError as error:
+        errors = [_again(item) for item in error.errors(include_url=False)]
+        fields = data if isinstance(data, dict) else {}
+    else:
+        fields = part.__dict__
+    if errors := [*errors, *(_detail(*misfit) for misfit in misfits(fields))]:
+        raise ValidationError.from_exception_data(kind.__name__, errors)
+    return part
+
+
+def refusal(kind: type[Part], misfits: Iterable[Misfit]) -> ValidationError:
+    """The error that names some misfits."""
+    return ValidationError.from_exception_data(kind.__name__, [_detail(*misfit) for misfit in misfits])
+
+
+def _detail(location: tuple[str | int, ...], message: str, value: Any) -> InitErrorDetails:
+    return {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}
+
+
+def _again(item: Any) -> InitErrorDetails:
+    if item["type"] in ("value_error", "misfit") or "error" in item.get("ctx", {}):
+        return _detail(item["loc"], str(item["msg"]).removeprefix("Value error, "), item["input"])
+    return {"type": item["type"], "loc": item["loc"], "input": item["input"], "ctx": item.get("ctx", {})}
+
+
 def problems(error: ValidationError, root: type[BaseModel]) -> list[tuple[str, str]]:
     """The pydantic errors as (path, message) with paths as the model file writes them."""
     keys = {name: field.alias or name for name, field in root.model_fields.items()}
     items = error.errors(include_url=False)
-    return [(path(tuple(keys.get(str(key), key) for key in item["loc"])), _message(item, root)) for item in items]
+    return [
+        (path((*(keys.get(str(key), key) for key in item["loc"][:1]), *item["loc"][1:])), _message(item, root))
+        for item in items
+    ]
 
 
 def path(loc: tuple[int | str, ...]) -> str:

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from beal.errors import ModelError
 from beal.vehicle.base import Part, problems
+from beal.vehicle.timeline_table import timeline_columns
 from beal.vehicle.vehicle import Vehicle
 
 LARGEST_FILE = 5_000_000  # bytes: a hundred thousand stages
@@ -59,14 +60,41 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     ModelError
         With the reason why the file cannot be read.
     """
-    source = str(path)
+    return _parsed(_text(path, "a text file in TOML"), str(path))
+
+
+def read_timeline(path: str | os.PathLike[str], units: str | None) -> dict[str, Any]:
+    """Read the fields of a timeline from a table, not checked yet.
+
+    Parameters
+    ----------
+    path : str or path-like
+        CSV, see `beal.vehicle.timeline_table.timeline_columns`.
+    units : str or None
+        Of the model: ``nondimensional``, or anything else.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ModelError
+        With the reason why the file cannot be read, or what is wrong with its columns.
+    """
+    text = _text(path, "a table in CSV")
     try:
-        text = read_bytes(path, LARGEST_FILE, "a text file in TOML").decode("utf-8-sig")
+        return timeline_columns(text, units == "nondimensional")
+    except ModelError as error:
+        raise ModelError(error.problems, str(path)) from None
+
+
+def _text(path: str | os.PathLike[str], expected: str) -> str:
+    try:
+        return read_bytes(path, LARGEST_FILE, expected).decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise ModelError(
-            f"is not text in UTF-8 (byte {error.start} is wrong): expected a text file in TOML", source
-        ) from None
-    return _parsed(text, source)
+        message = f"is not text in UTF-8 (byte {error.start} is wrong): expected {expected}"
+        raise ModelError(message, str(path)) from None
 
 
 def read_bytes(path: str | os.PathLike[str], largest: int, expected: str) -> bytes:
@@ -129,6 +157,14 @@ def vehicle_from(data: dict[str, Any], source: str) -> Vehicle:
     known = ", ".join(fields.values())
     found = [(name, f"unknown key; known here: {known}") for name in refused]
     accepted = {key: value for key, value in data.items() if key not in refused}
+    timeline = accepted.get("timeline")
+    if isinstance(timeline, dict) and "file" in timeline:
+        try:
+            accepted["timeline"] = _timeline_beside(timeline, source, data.get("units"))
+        except ModelError as error:
+            name = f"timeline.file, {timeline['file']}"
+            found += [(f"{name}, {place}" if place else name, message) for place, message in error.problems]
+            del accepted["timeline"]
     try:
         vehicle = Vehicle.model_validate(accepted, context={"units": data.get("units")})
     except ValidationError as error:
@@ -136,6 +172,14 @@ def vehicle_from(data: dict[str, Any], source: str) -> Vehicle:
     if found:
         raise ModelError(found, source)
     return vehicle
+
+
+def _timeline_beside(given: dict[str, Any], source: str, units: str | None) -> dict[str, Any]:
+    """The fields of a timeline that is a file of its own, named from where the model file is."""
+    name = given["file"]
+    if len(given) > 1 or not isinstance(name, str):
+        raise ModelError(f"must be the name of a file and nothing beside it, found {', '.join(given)}")
+    return read_timeline(Path(source).parent / name, units)
 
 
 def _parsed(text: str, source: str) -> dict[str, Any]:
@@ -236,6 +280,8 @@ def _assignments(part: Part, said: Collection[str]) -> str:
 def _literal(value: Any) -> str:
     if isinstance(value, Part):
         return "{" + ", ".join(f"{key} = {_literal(item)}" for key, item in _given(value)) + "}"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_literal(key)} = {_literal(item)}" for key, item in value.items()) + "}"
     if isinstance(value, tuple):
         return "[" + ", ".join(map(_literal, value)) + "]"
     if isinstance(value, str):

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 
+from beal.units import to_si
 from beal.vehicle.base import PLAIN, TABLE, Part, si
 from beal.vehicle.stations import (
     NOT_NEGATIVE,
@@ -88,7 +89,8 @@ class Stage(Part):
         for name, table in self.tables.items():
             if wrong := table.misfit(self.length):
                 raise misfit((name, "x"), wrong, table.x[-1])
-        massless = 0 in self.mass_per_length.value if isinstance(self.mass_per_length, StationTable) else not self.mass
+        mass = self.mass_per_length
+        massless = 0 in mass.value if isinstance(mass, StationTable) else mass == 0
         if massless and self.bending_stiffness != math.inf:
             raise misfit(("mass_per_length",), "must be positive where the stage bends, found 0", 0.0)
         return self
@@ -346,7 +348,11 @@ class Force(Part):
     signal: Signal
 
 
-def known(value: Any) -> bool:
-    """Whether a field of raw input is a usable number."""
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and -LARGEST <= value <= LARGEST
+def number(value: Any, unit: str) -> float:
+    """A quantity of raw input; nan, which fails every comparison, where it is not one."""
+    try:
+        value = to_si(value, unit) if isinstance(value, str) else value
+    except ValueError:
+        return math.nan
+    given = isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value) if given and -LARGEST <= value <= LARGEST else math.nan

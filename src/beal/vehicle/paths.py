@@ -85,8 +85,8 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     vehicle : Vehicle
     values : mapping of path to number
         ``stage.split`` moves the first joint and keeps the total length of the first two stages; the stations of
-        masses, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the lengths
-        that they describe. In SI, text with a unit is accepted as in the model file.
+        masses, tanks, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the
+        lengths that they describe. In SI, text with a unit is accepted as in the model file.
 
     Returns
     -------
@@ -134,6 +134,11 @@ def _stretch(vehicle: Vehicle, tree: dict[str | int, Any]) -> None:
         total += length
         if length > 0 and length != stage.length:
             branch |= {name: table.stretched(length) for name, table in stage.tables.items()}
+    for index, tank in enumerate(vehicle.tanks):
+        branch = tree.get("tanks", {}).get(index, {})
+        forward, aft = (metres(branch if end in branch else tank, end) for end in ("forward_end", "aft_end"))
+        if isinstance(tank.mass_per_length, StationTable) and aft - forward > 0 and aft - forward != tank.length:
+            branch["mass_per_length"] = tank.mass_per_length.stretched(aft - forward)
     for index, load in enumerate(vehicle.distributed_thrusts):
         if isinstance(load.value, StationTable) and load.value.misfit(total) and total > 0:
             loads = tree.setdefault("distributed_thrusts", {})

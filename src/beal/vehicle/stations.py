@@ -110,7 +110,7 @@ class StationTable(Part):
 class MassTable(StationTable):
     """Mass per length over stations, in kg/m."""
 
-    value: tuple[Annotated[FiniteFloat, si("kg/m"), POSITIVE], ...]
+    value: tuple[Annotated[FiniteFloat, si("kg/m"), NOT_NEGATIVE], ...]
 
 
 class StiffnessTable(StationTable):

@@ -53,7 +53,9 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "distributed_thrusts": [part.model_dump() for part in vehicle.distributed_thrusts],
         "axial_loads": [part.model_dump() for part in vehicle.axial_loads],
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
+        "tanks": _tanks(vehicle),
         "sensors": [part.model_dump() for part in vehicle.sensors],
+        "timeline": _timeline(vehicle),
         "nondimensional": _groups(vehicle),
     }
 
@@ -76,6 +78,27 @@ def _stages(vehicle: Vehicle) -> list[dict[str, Any]]:
         }
         for stage, start, end in ends
     ]
+
+
+def _tanks(vehicle: Vehicle) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": tank.name,
+            "from": tank.forward_end,
+            "to": tank.aft_end,
+            "fill": tank.fill,
+            "surface": tank.surface,
+            "mass": tank.mass,
+        }
+        for tank in vehicle.tanks
+    ]
+
+
+def _timeline(vehicle: Vehicle) -> dict[str, float] | None:
+    if vehicle.timeline is None:
+        return None
+    time = vehicle.timeline.time
+    return {"times": len(time), "from": time[0], "to": time[-1]}
 
 
 def _property(given: Property) -> float | str | dict[str, Any]:

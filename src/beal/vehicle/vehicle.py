@@ -7,11 +7,10 @@ from functools import cached_property
 from itertools import accumulate
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, FiniteFloat, ValidationError, model_validator
-from pydantic_core import InitErrorDetails, PydanticCustomError
+import numpy as np
+from pydantic import Field, FiniteFloat, model_validator
 
-from beal.units import to_si
-from beal.vehicle.base import Part, si
+from beal.vehicle.base import Misfit, Part, refusal, si, together
 from beal.vehicle.parts import (
     AxialLoad,
     Damping,
@@ -23,9 +22,20 @@ from beal.vehicle.parts import (
     Stage,
     Support,
     Thrust,
-    known,
+    number,
 )
 from beal.vehicle.stations import StationTable, mean
+from beal.vehicle.tanks import Tank, laden
+from beal.vehicle.timeline import Timeline, strangers
+
+# Parts that sit somewhere: key in the model file, field, and their stations.
+PLACED = (
+    ("point_mass", "point_masses", ("station",)),
+    ("tank", "tanks", ("forward_end", "aft_end")),
+    ("axial_load", "axial_loads", ("station",)),
+    ("sensor", "sensors", ("station",)),
+    ("force", "forces", ("station",)),
+)
 
 
 @dataclass(frozen=True)
@@ -66,6 +76,7 @@ class Vehicle(Part):
     joints : sequence of Joint
         One fewer than the stages, in order.
     point_masses : sequence of PointMass
+    tanks : sequence of Tank
     support : Support
     thrust : Thrust
     damping : Damping
@@ -76,6 +87,8 @@ class Vehicle(Part):
         flight gravity accelerates all parts alike.
     sensors : sequence of Sensor
     forces : sequence of Force
+    timeline : Timeline, optional
+        Of a flight, see `beal.flight`.
     title : str
     units : {"SI", "nondimensional"}
 
@@ -96,6 +109,7 @@ class Vehicle(Part):
     stages: tuple[Stage, ...] = Field(alias="stage")
     joints: tuple[Joint, ...] = Field(alias="joint", default=())
     point_masses: tuple[PointMass, ...] = Field(alias="point_mass", default=())
+    tanks: tuple[Tank, ...] = Field(alias="tank", default=())
     support: Support = Support()
     thrust: Thrust = Thrust()
     damping: Damping = Damping()
@@ -104,27 +118,18 @@ class Vehicle(Part):
     gravity: Annotated[FiniteFloat, si("m/s^2")] = 0.0
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
+    timeline: Timeline | None = None
 
     @model_validator(mode="wrap")
     @classmethod
     def _fits_together(cls, data: Any, handler: Any) -> "Vehicle":
-        """Checks across parts run even where a part is wrong, so that all problems are reported at once."""
-        errors: list[InitErrorDetails] = []
-        try:
-            vehicle: Vehicle = handler(data)
-        except ValidationError as error:
-            errors = [_again(item) for item in error.errors(include_url=False)]
-            parts = data if isinstance(data, dict) else {}
-        else:
-            parts = vehicle.__dict__
-        errors += [_detail(*problem) for problem in _misfits(parts)]
-        if not errors:
-            errors = [_detail(*problem) for problem in vehicle._unsuited_loads()]
-        if not errors and not vehicle._in_range():
-            message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
-            errors.append(_detail(("stage",), message, vehicle.length))
-        if errors:
-            raise ValidationError.from_exception_data(cls.__name__, errors)
+        vehicle: Vehicle = together(cls, data, handler, _misfits)
+        with np.errstate(over="ignore", invalid="ignore"):  # of tables that leave the range of numbers
+            if misfits := list(vehicle._unsuited_loads()):
+                raise refusal(cls, misfits)
+            if not vehicle._in_range():
+                message = "lengths, masses and stiffnesses leave the range of numbers: use units of the vehicle's size"
+                raise refusal(cls, [(("stage",), message, vehicle.length)])
         return vehicle
 
     @cached_property
@@ -137,15 +142,27 @@ class Vehicle(Part):
         """Whole length, in m."""
         return self.boundaries[-1]
 
+    @cached_property
+    def laden(self) -> tuple[Stage, ...]:
+        """The stages with what is in the tanks added to their mass per length: what moves and is accelerated."""
+        return laden(self.stages, self.tanks) if self.tanks else self.stages
+
+    @property
+    def without_tanks(self) -> "Vehicle":
+        """The same vehicle now: what is in the tanks as mass of its stages, and no timeline."""
+        if not self.tanks and self.timeline is None:
+            return self
+        return self.model_copy(update={"stages": self.laden, "tanks": (), "timeline": None})
+
     @property
     def mass(self) -> float:
         """Total mass, in kg."""
-        return sum(stage.mass for stage in self.stages) + sum(p.mass for p in self.point_masses)
+        return sum(stage.mass for stage in self.laden) + sum(p.mass for p in self.point_masses)
 
     @property
     def centre_of_mass(self) -> float:
         """Station of the centre of mass, in m."""
-        stages = zip(self.stages, self.boundaries, strict=False)
+        stages = zip(self.laden, self.boundaries, strict=False)
         moment = sum(x * stage.mass + stage.mass_moments[1] for stage, x in stages)
         return (moment + sum(p.mass * p.station for p in self.point_masses)) / self.mass
 
@@ -155,7 +172,7 @@ class Vehicle(Part):
         centre = self.centre_of_mass
         inertia = sum(p.rotary_inertia + p.mass * (p.station - centre) ** 2 for p in self.point_masses)
         inertia += sum(mean(stage.rotary_inertia_per_length) * stage.length for stage in self.stages)
-        for stage, x in zip(self.stages, self.boundaries, strict=False):
+        for stage, x in zip(self.laden, self.boundaries, strict=False):
             mass, first, second = stage.mass_moments
             front = x - centre
             inertia += second + 2 * front * first + front**2 * mass
@@ -207,7 +224,7 @@ class Vehicle(Part):
     @property
     def scales(self) -> Scales:
         """Reference quantities of the non-dimensional form."""
-        for stage in self.stages:
+        for stage in self.laden:
             if math.isfinite(stiffness := mean(stage.bending_stiffness)):
                 return Scales(self.length, mean(stage.mass_per_length), stiffness)
         return Scales(self.length, self.mass / self.length, next(self._other_stiffnesses(), math.nan))
@@ -222,7 +239,7 @@ class Vehicle(Part):
         given += [translation * length**3 for translation, _ in self.support.stiffness]
         return (stiffness for stiffness in given if 0 < stiffness < math.inf)
 
-    def _unsuited_loads(self) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+    def _unsuited_loads(self) -> Iterator[Misfit]:
         for index, load in enumerate(self.distributed_thrusts):
             if isinstance(load.value, StationTable) and (wrong := load.value.misfit(self.length)):
                 yield ("distributed_thrust", index, "value", "x"), wrong, load.value.x[-1]
@@ -245,7 +262,7 @@ class Vehicle(Part):
         return sum(station >= x - tolerance for x in inner)
 
 
-def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
+def _misfits(data: dict[str, Any]) -> Iterator[Misfit]:
     """(location, message, input) of what does not fit together in raw input, as far as it can be judged."""
     stages = _parts(data, "stage", "stages")
     joints = _parts(data, "joint", "joints")
@@ -258,21 +275,24 @@ def _misfits(data: dict[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str,
         yield ("joint",), message, len(joints)
     lengths = [metres(stage, "length") for stage in stages]
     total = sum(lengths) if lengths and all(x > 0 for x in lengths) else math.inf
-    placed = {"point_mass": "point_masses", "axial_load": "axial_loads", "sensor": "sensors", "force": "forces"}
-    for alias, name in placed.items():
+    for alias, name, fields in PLACED:
         for index, part in enumerate(_parts(data, alias, name)):
-            station = metres(part, "station")
-            if station > total * (1 + 1e-12):
-                message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
-                yield (alias, index, "station"), message, station
+            for field in fields:
+                station = metres(part, field)
+                if station > total * (1 + 1e-12):
+                    message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
+                    yield (alias, index, field), message, station
     station = metres(_field(data, "thrust"), "station")
     if station > total * (1 + 1e-12):
         message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
         yield ("thrust", "station"), message, station
-    names = [_field(sensor, "name") for sensor in _parts(data, "sensor", "sensors")]
-    for index, name in enumerate(names):
-        if isinstance(name, str) and name in names[:index]:
-            yield ("sensor", index, "name"), f"must be unique, found {name!r} again", name
+    for alias, name in (("tank", "tanks"), ("sensor", "sensors")):
+        names = [_field(part, "name") for part in _parts(data, alias, name)]
+        for index, given in enumerate(names):
+            if isinstance(given, str) and given in names[:index]:
+                yield (alias, index, "name"), f"must be unique, found {given!r} again", given
+    tanks = [_field(tank, "name") for tank in _parts(data, "tank", "tanks")]
+    yield from strangers(data.get("timeline"), tanks, len(stages))
 
 
 def _parts(data: dict[str, Any], alias: str, name: str) -> list[Any]:
@@ -286,19 +306,4 @@ def _field(part: Any, name: str) -> Any:
 
 def metres(part: Any, name: str) -> float:
     """A length of raw input; nan, which fails every comparison, where it is not one."""
-    value = _field(part, name)
-    try:
-        value = to_si(value, "m") if isinstance(value, str) else value
-    except ValueError:
-        return math.nan
-    return float(value) if known(value) else math.nan
-
-
-def _detail(location: tuple[str | int, ...], message: str, value: Any) -> InitErrorDetails:
-    return {"type": PydanticCustomError("misfit", message), "loc": location, "input": value}
-
-
-def _again(item: Any) -> InitErrorDetails:
-    if item["type"] in ("value_error", "misfit") or "error" in item.get("ctx", {}):
-        return _detail(item["loc"], str(item["msg"]).removeprefix("Value error, "), item["input"])
-    return {"type": item["type"], "loc": item["loc"], "input": item["input"], "ctx": item.get("ctx", {})}
+    return number(_field(part, name), "m")

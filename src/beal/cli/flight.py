@@ -1,0 +1,142 @@
+"""``beal flight``: margins over the flight."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from beal.cli.figures import flight_figure, named, new_figure
+from beal.cli.options import AsJson, Figure, Model
+from beal.cli.output import cell, emit, new_file, note, progress_bar, show_table, write_columns
+
+if TYPE_CHECKING:
+    from beal.study.flight import Flight, FlightState
+
+
+def flight(
+    model: Model,
+    timeline: Annotated[
+        Path | None, typer.Option("--timeline", metavar="FILE", help="CSV with time, thrust, fill.TANK, stages.")
+    ] = None,
+    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 3,
+    table: Annotated[Path | None, typer.Option("--csv", metavar="OUT", help="Write a table there.")] = None,
+    figure: Figure = None,
+    as_json: AsJson = False,
+) -> None:
+    """Mass, frequencies, critical thrust and margin at every time of a flight."""
+    from beal.cli import NOT_CONVERGED
+    from beal.interop.files import load
+    from beal.study.flight import flight as fly
+
+    vehicle = load(model)
+    with new_figure(figure, as_json) as draw:
+        with progress_bar() as progress:
+            found = fly(vehicle, timeline, modes, lambda done, total: progress("times", done, total))
+        draw(lambda: flight_figure(found))
+    if table:
+        with new_file(table) as file:
+            write_columns(file, _columns(found))
+    if as_json:
+        emit({**_data(found), "units": found.units, **named(figure)})
+    else:
+        _show(found)
+        if table:
+            note(f"written to {table}")
+    if any(state.status != "solved" for state in found.states):
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _data(found: "Flight") -> dict[str, Any]:
+    """One list for each quantity, an entry for each time."""
+    omega = found.angular_frequency
+    return {
+        "time": found.time,
+        "thrust": found.thrust,
+        "mass": found.mass,
+        "stages": [_stages(state) for state in found.states],
+        "angular_frequency": omega,
+        **({"frequency_hz": omega / (2 * math.pi)} if found.units == "SI" else {}),
+        "critical_thrust": found.critical_thrust,
+        "kind": [state.critical and state.critical.kind for state in found.states],
+        "modes": [state.critical and state.critical.modes for state in found.states],
+        "error_estimate": [state.critical and state.critical.error_estimate for state in found.states],
+        "searched_to": found.searched_to,
+        "margin": found.margin,
+        "margin_is_lower_bound": found.at_least,
+        "status": [state.status for state in found.states],
+        "reason": [state.reason for state in found.states],
+    }
+
+
+def _columns(found: "Flight") -> dict[str, Any]:
+    """The same with a column for each mode, and nothing where there is no number."""
+    import numpy as np
+
+    columns: dict[str, Any] = {}
+    for name, values in _data(found).items():
+        if name == "modes":
+            for place, end in enumerate(("mode_low", "mode_high")):
+                columns[end] = [pair and pair[place] for pair in values]
+        elif np.ndim(values) == 2:
+            columns |= {f"{name}_{n}": column for n, column in enumerate(np.transpose(values), 1)}
+        else:
+            columns[name] = values
+    return {name: np.array([_known(value) for value in column], dtype=object) for name, column in columns.items()}
+
+
+def _known(value: Any) -> Any:
+    """None for nan."""
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
+def _show(found: "Flight") -> None:
+    si = found.units == "SI"
+    staged = len({state.stages for state in found.states}) > 1
+    scale, unit = (2 * math.pi, " [Hz]") if si else (1.0, "")
+    count = found.angular_frequency.shape[1]
+    name = "f" if si else "omega"
+    columns = ["time", "mass", "thrust"]
+    columns = [f"{title} [{unit}]" if si else title for title, unit in zip(columns, ("s", "kg", "N"), strict=True)]
+    columns += [*(["stages"] if staged else []), *(f"{name} {n}{unit}" for n in range(1, count + 1))]
+    columns += ["critical thrust" + (" [N]" if si else ""), "instability", "margin"]
+    rows = [
+        [
+            state.time,
+            state.mass,
+            state.thrust,
+            *([_stages(state)] if staged else []),
+            *(_known(omega / scale) for omega in frequencies),
+            state.critical and state.critical.critical_thrust,
+            _instability(state),
+            _margin(state),
+        ]
+        for state, frequencies in zip(found.states, found.angular_frequency.tolist(), strict=True)
+    ]
+    show_table(columns, rows, "margin: critical over actual thrust, less 1")
+    for reason in dict.fromkeys(state.reason for state in found.states if state.reason):
+        times = ", ".join(cell(state.time) for state in found.states if state.reason == reason)
+        print(f"at {times}: {reason}")
+
+
+def _stages(state: "FlightState") -> str:
+    first, last = state.stages
+    return f"{first}" if first == last else f"{first}-{last}"
+
+
+def _instability(state: "FlightState") -> str:
+    found = state.critical
+    if found is None:
+        return state.status.replace("_", " ")
+    if found.elastic is not None:
+        return "tumbles"
+    if found.modes is None:
+        return f"stable up to {found.searched_to:.6g}"
+    low, high = found.modes
+    return f"{found.kind} {low}" if low == high else f"{found.kind} {low}-{high}"
+
+
+def _margin(state: "FlightState") -> str:
+    if math.isnan(state.margin):
+        return ""
+    return f"{'>= ' if state.at_least else ''}{state.margin:.4g}"
