@@ -1,8 +1,9 @@
 """Critical thrust of vehicles of 2 to 1000 stages: time against size, on one core.
 
-Three kinds, all as long, heavy and stiff as a uniform beam of EI = m = L = 1: stages that differ from each other and
+Four kinds, all as long, heavy and stiff as a uniform beam of EI = m = L = 1: stages that differ from each other and
 are joined rigidly; the same on springs that are together as soft as the beam; a stick model, which adds a point mass
-in every stage. The dense matrices of the second kind are timed as far as they are bearable. Run with
+in every stage; the springs with damping in stages and joints. The dense matrices of the second kind are timed as far
+as they are bearable. Run with
 
     python benchmarks/large_vehicles.py [FIGURE.png]
 """
@@ -36,12 +37,15 @@ def vehicles(stages: int) -> dict[str, beal.Vehicle]:
         for x, r in zip(lengths, ripple[::-1], strict=True)
     ]
     springs = beal.Joint(rotational_stiffness=float(stages), shear_stiffness=100.0 * stages)
+    damped = [beam.model_copy(update={"internal_damping": 1e-3, "external_damping": 0.1}) for beam in beams]
+    dashpots = springs.model_copy(update={"rotational_damping": 1e-3 * stages})
     middles = np.cumsum(lengths) - lengths / 2
     lumps = [beal.PointMass(station=x, mass=m) for x, m in zip(middles, lengths, strict=True)]
     return {
         "rigid joints": beal.Vehicle(stages=beams, joints=[beal.Joint()] * (stages - 1)),
         "springs": beal.Vehicle(stages=beams, joints=[springs] * (stages - 1)),
         "stick model": beal.Vehicle(stages=beams, joints=[springs] * (stages - 1), point_masses=lumps),
+        "springs, damped": beal.Vehicle(stages=damped, joints=[dashpots] * (stages - 1)),
     }
 
 
