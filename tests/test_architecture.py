@@ -18,6 +18,7 @@ ROOMS = [
     "motion",
     "interop",
     "study",
+    "verification",
     "plot",
     "report",
     "paper",

@@ -18,9 +18,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL = (
-    PAGES.get(name, "") for name in ("clusters", "flight", "interop", "maps", "model")
-)
+NAMES = ("clusters", "flight", "interop", "maps", "model")
+CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -85,10 +84,11 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model"]
+    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model", "verification"]
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
-    assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
+    assert "```" not in PAGES["verification"]  # all of it is output of beal verify
+    assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 

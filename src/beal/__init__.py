@@ -40,6 +40,7 @@ if _typing.TYPE_CHECKING:
     from beal.vehicle.tanks import Tank
     from beal.vehicle.timeline import Timeline
     from beal.vehicle.vehicle import Vehicle
+    from beal.verification.run import verify
 
 __version__ = _version("beal")
 
@@ -89,6 +90,7 @@ _HOMES = {
     "stability_map": "beal.study.map",
     "thrust_curve": "beal.stability.curve",
     "vanishing_damping_limit": "beal.stability.vanishing",
+    "verify": "beal.verification.run",
 }
 
 __all__ = [
@@ -137,6 +139,7 @@ __all__ = [
     "stability_map",
     "thrust_curve",
     "vanishing_damping_limit",
+    "verify",
 ]
 
 

@@ -20,7 +20,19 @@ from beal.interop.files import load
 from beal.vehicle import Thrust, catalog
 from beal.vehicle.file import loads
 
-COMMANDS = ["check", "modes", "critical", "curve", "flight", "map", "response", "reproduce", "convert", "example"]
+COMMANDS = [
+    "check",
+    "modes",
+    "critical",
+    "curve",
+    "flight",
+    "map",
+    "response",
+    "reproduce",
+    "verify",
+    "convert",
+    "example",
+]
 HEAVY = {"numpy", "scipy", "pydantic", "xarray", "zarr", "matplotlib", "pint"}
 SI_BEAM = """
 title = "beam"

@@ -7,7 +7,6 @@ import pytest
 
 import beal
 from beal.stability.large import is_large
-from beal.stability.modes import converged_modes
 from properties.vehicles import random_vehicle, sheared
 
 BECK = 20.050953618973761
@@ -33,33 +32,6 @@ def column(shear=math.inf, inertia=0.0, tip=0.0, nose="clamped", pieces=1, **thr
 
 def load(vehicle, **options):
     return beal.critical_thrust(vehicle, **options).critical_thrust
-
-
-# Exact transfer matrices; Engesser and Haringx, with a tip mass along the slope and along the section.
-@pytest.mark.parametrize(
-    ("vehicle", "thrust", "omega"),
-    [
-        (column(1000.0), 19.453196077, 10.792094745),
-        (column(25.0, 0.01), 8.9148746383, 6.3158357316),
-        (column(25.0, axial_term="haringx"), 10.963137983, 7.3068592494),
-        (column(inertia=0.01), 18.1684874096, 9.99962673319),
-        (column(100.0, 0.0025, tip=0.5), 13.009028979, 6.3651763442),
-        (column(100.0, 0.0025, tip=0.5, along="section"), 13.015989271, 6.1998793555),
-        (column(100.0, 0.0025, tip=0.5, axial_term="haringx"), 13.29496238, 6.4455483987),
-        (column(100.0, 0.0025, tip=0.5, axial_term="haringx", along="section"), 13.30007466, 6.29499175),
-        (column(250.0, 0.0025, nose="free"), 81.0196721272, 19.3577361918),
-        (column(250.0, nose="free", axial_term="haringx"), 88.4544504401, None),
-    ],
-)
-def test_columns_that_shear_have_their_exact_critical_thrusts(vehicle, thrust, omega):
-    found = beal.critical_thrust(vehicle)
-    assert found.critical_thrust == pytest.approx(thrust, abs=1e-9 * thrust)  # digits that are given
-    assert omega is None or found.angular_frequency == pytest.approx(omega, rel=1e-8)
-
-
-def test_a_free_beam_that_shears_has_its_exact_frequencies():
-    found = converged_modes(column(250.0, 0.0025, nose="free"), 0.0, 3)[0].angular_frequency
-    assert found == pytest.approx([20.701796777, 51.539684246, 90.481103578], rel=1e-10)
 
 
 @pytest.mark.parametrize("seed", range(16))

@@ -1,4 +1,4 @@
-"""The reference values of the theory page: loads, frequencies, kinds and modes under each formulation."""
+"""The formulations: modes that meet, wavenumbers, rigid-body roots."""
 
 import pytest
 
@@ -23,40 +23,20 @@ def printed(text: str) -> object:
 
 
 @pytest.mark.parametrize(
-    ("vehicle", "formulation", "thrust", "omega", "kind", "modes"),
+    ("vehicle", "formulation", "modes"),
     [
-        (catalog.beal(), "objective", "109.689191958738", "23.0733298844", "flutter", (1, 2)),
-        (catalog.beck(), "objective", "20.0509536", "11.0156", "flutter", (1, 2)),
-        (catalog.pflueger(0.1), "objective", "17.595282", "9.43278", "flutter", (1, 2)),
-        (catalog.pflueger(0.5), "objective", "16.061562", "7.23706", "flutter", (1, 2)),
-        (catalog.pflueger(1.0), "objective", "16.212129", "6.27450", "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3), "objective", "106.437231", "22.8073", "flutter", (1, 2)),
-        (catalog.tsto(0.8, 1e4, 1e4), "objective", "108.590391", "22.7822", "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3), "converged", "109.34644", "23.01319", "flutter", (1, 2)),
-        (catalog.tsto(0.8, 200, 600), "converged", "107.78176", "26.42055", "flutter", (1, 2)),
-        (catalog.tsto(0.2, 1, 100), "converged", "44.92481", "0", "divergence", (1, 1)),
-        (catalog.tsto(0.6, 5e3, 5e3), "corrected-ritz", "109.528403", None, "flutter", (1, 2)),
-        (catalog.tsto(0.8, 1e4, 1e4), "corrected-ritz", "116.786285", None, "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3), "as-printed", "109.615937", None, "flutter", (1, 2)),
-        (catalog.tsto(0.8, 200, 600), "as-printed", "98.836918", None, "flutter", (3, 4)),
-        (catalog.tsto(0.6, 1, 1e4), "as-printed", "107.650146", None, "divergence", (1, 1)),
-        # the text: a soft rotational spring, slow convergence of modes, the couple of the axial force
-        (catalog.tsto(0.6, 1, 1e4), "corrected-ritz", "13.941080", None, "divergence", (1, 1)),
-        (catalog.tsto(0.6, 1, 1e4), "converged", "13.898275", "0", "divergence", (1, 1)),
-        (catalog.tsto(0.8, 1e4, 1e4), "converged", "109.622066", None, "flutter", (1, 2)),
-        (catalog.tsto(0.8, 200, 600), "corrected-ritz", "108.204074", None, "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3, "mean"), "objective", "106.437231", None, "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3, "forward"), "objective", "106.432496", None, "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3, "aft"), "objective", "106.441715", None, "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3, "inertial"), "objective", "107.989003", None, "flutter", (1, 2)),
-        (catalog.tsto(0.6, 5e3, 5e3), "converged", "109.346441", None, "flutter", (1, 2)),
+        (catalog.tsto(0.6, 5e3, 5e3), "objective", (1, 2)),
+        (catalog.tsto(0.6, 5e3, 5e3), "converged", (1, 2)),
+        (catalog.tsto(0.2, 1, 100), "converged", (1, 1)),
+        (catalog.tsto(0.6, 1, 1e4), "converged", (1, 1)),
+        (catalog.tsto(0.8, 200, 600), "converged", (1, 2)),
+        (catalog.tsto(0.8, 200, 600), "corrected-ritz", (1, 2)),
+        (catalog.tsto(0.8, 200, 600), "as-printed", (3, 4)),
+        (catalog.tsto(0.6, 1, 1e4), "as-printed", (1, 1)),
     ],
 )
-def test_critical_thrust_is_the_reference_value(vehicle, formulation, thrust, omega, kind, modes):
-    found = critical_thrust(vehicle, formulation=formulation)
-    assert (found.kind, found.modes) == (kind, modes)
-    assert found.critical_thrust == printed(thrust)
-    assert omega is None or found.angular_frequency == printed(omega)
+def test_formulations_differ_in_the_modes_that_meet(vehicle, formulation, modes):
+    assert critical_thrust(vehicle, formulation=formulation).modes == modes
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from beal.cli.maps import map_study, reproduce
 from beal.cli.models import check, example
 from beal.cli.modes import modes
 from beal.cli.motion import response
+from beal.cli.verify import verify
 
 COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "check": (check, "beal check tsto.toml"),
@@ -24,6 +25,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),
+    "verify": (verify, "beal verify --case pflueger"),
     "convert": (convert, "beal convert stick.bdf tsto.toml --nose low"),
     "example": (example, "beal example tsto -o tsto.toml"),
 }
