@@ -246,7 +246,7 @@ def test_the_benchmark_runs(tmp_path):
     assert "times the plain way's points per second" in printed
 
 
-@pytest.mark.parametrize("model", ["two_stages.toml", "sounding_rocket.toml", "generic_small_launcher.toml"])
+@pytest.mark.parametrize("model", ["two_stages.toml", "sounding_rocket.toml"])
 @pytest.mark.parametrize("command", ["check", "modes", "critical"])
 def test_an_example_model_is_understood_by_every_command(model, command):
     assert run([*BEAL, command, str(EXAMPLES / model)], EXAMPLES)

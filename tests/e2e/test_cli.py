@@ -48,7 +48,7 @@ SI_SCALE, SI_RATE = 5e5, 1.5811388300841898
 
 
 def example(name):
-    return (files("beal.cli") / "examples" / f"{name}.toml").read_text(encoding="utf-8")
+    return (files("beal.vehicle.catalog") / "models" / f"{name}.toml").read_text(encoding="utf-8")
 
 
 @pytest.fixture

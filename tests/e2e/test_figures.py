@@ -25,7 +25,7 @@ BEGINNINGS = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
 
 @pytest.fixture
 def tsto(written):
-    return written((files("beal.cli") / "examples" / "tsto.toml").read_text(encoding="utf-8"), "tsto.toml")
+    return written((files("beal.vehicle.catalog") / "models" / "tsto.toml").read_text(encoding="utf-8"), "tsto.toml")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -78,7 +78,7 @@ def test_a_vehicle_that_tumbles_is_said_to(beal_here, written):
 
 def test_a_flight_is_written_as_csv_and_drawn(beal_here, flown, tmp_path):
     done = beal_here("flight", flown, "--csv", "flight.csv", "--figure", "flight.svg", "--modes", 2)
-    assert (done.returncode, done.stderr) == (0, "beal: written to flight.csv\nbeal: written to flight.svg\n")
+    assert (done.returncode, done.stderr) == (0, "beal: figure written to flight.svg\nbeal: written to flight.csv\n")
     with (tmp_path / "flight.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [float(row["angular_frequency_2"]) > float(row["angular_frequency_1"]) > 0 for row in rows] == [True] * 3
@@ -113,7 +113,11 @@ def test_another_timeline_takes_the_place_of_the_model_s(result_of, flown, writt
             ["4 problems", "time[1]", "thrust[0]", "fill.fuel: must be a tank of this vehicle (LOX)", "stages[1]"],
         ),
         (("--timeline", "ascent.csv", "--modes", "0"), TABLE, ["modes: must lie between 1 and 40, found 0"]),
-        (("--timeline", "ascent.csv", "--figure", "a.txt"), TABLE, ["a.txt: must end with .png, .svg, .pdf"]),
+        (
+            ("--timeline", "ascent.csv", "--figure", "a.txt"),
+            TABLE,
+            ["a.txt: --figure: must end with one of .png, .svg, .pdf, found .txt"],
+        ),
         (("--timeline", "ascent.csv", "--csv", "no/where.csv"), TABLE, ["no/where.csv: cannot be written"]),
     ],
 )
@@ -129,7 +133,7 @@ def test_a_time_that_does_not_converge_is_shown_and_the_exit_code_is_3(beal_here
     from beal.errors import ConvergenceError
     from beal.study import flight
 
-    def fails(vehicle):
+    def fails(vehicle, tolerance):
         raise ConvergenceError("lost")
 
     monkeypatch.setattr(flight, "critical_thrust", fails)

@@ -30,7 +30,7 @@ ON_DASK = ["map", "study.toml", "-o", "dask.zarr", "--scheduler", "local", "--wo
 
 @pytest.fixture
 def undisturbed(result_of, written, tmp_path):
-    written((files("beal.cli") / "examples" / "tsto.toml").read_text(encoding="utf-8"), "tsto.toml")
+    written((files("beal.vehicle.catalog") / "models" / "tsto.toml").read_text(encoding="utf-8"), "tsto.toml")
     written(STUDY, "study.toml")
     result_of("map", "study.toml", "-o", "plain.zarr", "--workers", "1")
     return contents(tmp_path / "plain.zarr")

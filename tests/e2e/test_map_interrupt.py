@@ -28,7 +28,7 @@ POINTS = 5 * 256
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_an_interrupted_map_is_resumed(beal, result_of, written, tmp_path, workers):
-    written((files("beal.cli") / "examples" / "tsto.toml").read_text(encoding="utf-8"), "tsto.toml")
+    written((files("beal.vehicle.catalog") / "models" / "tsto.toml").read_text(encoding="utf-8"), "tsto.toml")
     arguments = ["map", written(STUDY, "study.toml"), "-o", "map.zarr", "--workers", str(workers)]
     output = tmp_path / "map.zarr"
     with subprocess.Popen(

@@ -39,7 +39,7 @@ UNITS = {
     "time_scale": "s",
 }
 OF_STAGES = {"shear_stiffness": "N"}  # where joints have the same name for another quantity
-EXAMPLES = ("beck", "beal", "pflueger", "tsto")
+EXAMPLES = ("beck", "beal", "pflueger", "tsto", "generic_small_launcher")
 
 
 def check(model: Model, figure: Figure = None, as_json: AsJson = False) -> None:
@@ -109,7 +109,7 @@ def example(
     """Print a commented model file of the catalog, or write it to a new file."""
     if name not in EXAMPLES:
         raise ModelError(f"NAME: must be one of {', '.join(EXAMPLES)}, found {name!r}")
-    text = (files("beal.cli") / "examples" / f"{name}.toml").read_text(encoding="utf-8")
+    text = (files("beal.vehicle.catalog") / "models" / f"{name}.toml").read_text(encoding="utf-8")
     if output:
         if output.exists():
             raise ModelError("exists already; give the name of a new file", str(output))

@@ -130,12 +130,12 @@ def _springs(ax: "Axes", joint: Joint, x: float, half: float, width: float) -> N
 def _tanks(sketch: _Sketch) -> Captions:
     """Tanks inside the body, their liquid at the aft end."""
     for tank in sketch.vehicle.tanks:
-        x = np.union1d(np.linspace(tank.forward_end, tank.aft_end, 41), tank.surface)
-        half = TANK * np.array([sketch.half_width(station) for station in x])
-        wet = x >= tank.surface
-        for body, color in ((Section(x, half), "white"), (Section(x[wet], half[wet]), SKY)):
+        along_it = np.linspace(tank.forward_end, tank.aft_end, 41)
+        half = np.full(2, TANK * min(sketch.half_width(station) for station in along_it))
+        for front, color in ((tank.forward_end, "white"), (tank.surface, SKY)):
             look = {"facecolor": color, "edgecolor": BLACK, "linewidth": 0.6, "zorder": 2.5}
-            sketch.ax.add_patch(Polygon(body.outline(), closed=True, **look))
+            outline = Section(np.array([front, tank.aft_end]), half).outline()
+            sketch.ax.add_patch(Polygon(outline, closed=True, **look))
         middle = (tank.forward_end + tank.aft_end) / 2
         yield Caption(middle, -sketch.half_width(middle), tank.name)
 

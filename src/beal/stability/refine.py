@@ -21,6 +21,7 @@ TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
 SHEARED_TOLERANCE = 1e-9  # modes of shear and of bending may be coupled so weakly that rounding leaves more
 MODAL_TOLERANCE = 1e-8  # where damping ratios reach up to modes that no discretisation resolves
 FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
+STEADY = 1e-2  # ratio that the next correction is not trusted to fall below: one of 1/1000 was followed by one of 1/170
 SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
 
 
@@ -76,7 +77,7 @@ def _remaining(before: float, last: float, rounding: float) -> float:
     """Error left after two successive corrections: that of a geometric sequence, or of rounding, sampled twice."""
     if last >= FALLING * before:
         return SAMPLED * max(last, before)
-    return last * last / before if last > rounding else SAMPLED * last
+    return last * max(last / before, STEADY) if last > rounding else SAMPLED * last
 
 
 Polish = Callable[[Pencil, Kind, float, float], CriticalPoint]

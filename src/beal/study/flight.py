@@ -4,7 +4,7 @@ import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Literal
 
 import numpy as np
@@ -19,6 +19,7 @@ from beal.vehicle.timeline import Timeline
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
+TOLERANCE = 1e-6  # of margins, relative; each state gives what it reached
 COASTS = "coasts: no thrust, no margin"
 
 
@@ -167,7 +168,7 @@ def flight(
     if not 1 <= modes <= MOST_MODES:
         raise ModelError(f"modes: must lie between 1 and {MOST_MODES}, found {modes}")
     vehicle = _with_timeline(vehicle, timeline)
-    critical = lru_cache(maxsize=1)(critical_thrust)  # a coasting vehicle stays the same
+    critical = lru_cache(maxsize=1)(partial(critical_thrust, tolerance=TOLERANCE))  # a coasting vehicle stays the same
     states: list[FlightState] = []
     prepared = _prepared(vehicle)
     for state, each in prepared:

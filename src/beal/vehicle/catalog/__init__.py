@@ -10,6 +10,7 @@ from beal.vehicle.catalog.beck import (
     beck_tapered,
 )
 from beal.vehicle.catalog.columns import euler, greenhill, hauger, leipholz, pflueger, reut
+from beal.vehicle.catalog.launcher import generic_small_launcher
 from beal.vehicle.catalog.missiles import beal, mladenov_sugiyama, park_mote, tsto
 from beal.vehicle.catalog.pendulum import ziegler
 from beal.vehicle.catalog.timoshenko import beal_timoshenko, beck_timoshenko
@@ -26,6 +27,7 @@ __all__ = [
     "beck_tapered",
     "beck_timoshenko",
     "euler",
+    "generic_small_launcher",
     "greenhill",
     "hauger",
     "leipholz",
