@@ -18,7 +18,7 @@ from beal.stability.double_root import CriticalPoint
 from beal.stability.kernels.rules import BORDER
 from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
-from beal.stability.pencil import Pencil, corrections, pencil, reduced
+from beal.stability.pencil import CORRECTED, Pencil, corrections, pencil, reduced
 from beal.stability.refine import default_tolerance, first_order, ladder, refined, settled
 from beal.stability.ridge import Instability, Search, meeting_pair
 from beal.stability.threads import one_thread
@@ -201,7 +201,7 @@ def critical_events(
         task = _task(operators.vehicle, max_thrust, formulation)
         full = pencil(operators)
         watched = _watched(large) if large else task.watched
-        small = reduced(full, watched + COMPLETE_SPARE, corrections(operators.vehicle, watched))
+        small = reduced(full, watched + COMPLETE_SPARE)
         if full.C is None:
             found = events(small, task.limit, watched)
         else:
@@ -242,7 +242,9 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
         raise ModelError(f"method: must be fast or complete, found {method!r}")
     full = pencil(operators)
     spare = SPARE if method == "fast" else COMPLETE_SPARE
-    small = reduced(full, task.watched + spare, corrections(operators.vehicle, task.watched))
+    cheap = method == "fast" and full.C is None  # the other searches grow with the sixth power of the size
+    corrected = corrections(operators.vehicle, task.watched) if cheap else CORRECTED
+    small = reduced(full, task.watched + spare, corrected)
     drift: str
     if full.C is None:
         drift = rigid_body_root(small, task.limit)
