@@ -141,7 +141,9 @@ def test_an_unknown_command_is_refused(beal):
 
 
 def test_an_unknown_example_is_refused_with_the_known_ones(beal):
-    assert "NAME: must be one of beck, beal, pflueger, tsto, found 'saturn'" in refusal(beal("example", "saturn"))
+    assert "NAME: must be one of beck, beal, pflueger, tsto, generic_small_launcher, found 'saturn'" in refusal(
+        beal("example", "saturn")
+    )
 
 
 def test_an_example_does_not_overwrite_a_model(beal, written, tmp_path):
