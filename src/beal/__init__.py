@@ -9,6 +9,7 @@ from importlib.metadata import version as _version
 
 if _typing.TYPE_CHECKING:
     from beal import plot
+    from beal.control import ClosedLoop, StateSpace, closed_loop, state_space
     from beal.discretisation.build import discretise
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
@@ -23,6 +24,7 @@ if _typing.TYPE_CHECKING:
     from beal.study.map import stability_map
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
+    from beal.vehicle.control import Control, Filter, Gain
     from beal.vehicle.file import dumps, loads
     from beal.vehicle.parts import (
         AxialLoad,
@@ -47,15 +49,19 @@ __version__ = _version("beal")
 _HOMES = {
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
+    "ClosedLoop": "beal.control",
+    "Control": "beal.vehicle.control",
     "ConvergenceError": "beal.errors",
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
     "DistributedThrust": "beal.vehicle.parts",
     "ElasticEnd": "beal.vehicle.parts",
     "Event": "beal.stability.complete",
+    "Filter": "beal.vehicle.control",
     "Flight": "beal.study.flight",
     "FlightState": "beal.study.flight",
     "Force": "beal.vehicle.parts",
+    "Gain": "beal.vehicle.control",
     "Joint": "beal.vehicle.parts",
     "ModeShape": "beal.motion",
     "ModelError": "beal.errors",
@@ -68,19 +74,21 @@ _HOMES = {
     "Sensor": "beal.vehicle.parts",
     "Spectrum": "beal.stability.spectrum",
     "Stage": "beal.vehicle.parts",
+    "StateSpace": "beal.control",
     "Support": "beal.vehicle.parts",
     "Tank": "beal.vehicle.tanks",
     "Thrust": "beal.vehicle.parts",
     "ThrustCurve": "beal.stability.curve",
     "Timeline": "beal.vehicle.timeline",
     "Vehicle": "beal.vehicle.vehicle",
-    "flight": "beal.study.flight",
-    "growth_rate": "beal.motion",
     "catalog": "beal.vehicle.catalog",
+    "closed_loop": "beal.control",
     "critical_events": "beal.stability.critical",
     "critical_thrust": "beal.stability.critical",
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
+    "flight": "beal.study.flight",
+    "growth_rate": "beal.motion",
     "load": "beal.interop.files",
     "loads": "beal.vehicle.file",
     "plot": "beal.plot",
@@ -88,6 +96,7 @@ _HOMES = {
     "response": "beal.motion",
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
+    "state_space": "beal.control",
     "thrust_curve": "beal.stability.curve",
     "vanishing_damping_limit": "beal.stability.vanishing",
     "verify": "beal.verification.run",
@@ -96,15 +105,19 @@ _HOMES = {
 __all__ = [
     "AxialLoad",
     "BealError",
+    "ClosedLoop",
+    "Control",
     "ConvergenceError",
     "CriticalThrust",
     "Damping",
     "DistributedThrust",
     "ElasticEnd",
     "Event",
+    "Filter",
     "Flight",
     "FlightState",
     "Force",
+    "Gain",
     "Joint",
     "ModeShape",
     "ModelError",
@@ -117,6 +130,7 @@ __all__ = [
     "Sensor",
     "Spectrum",
     "Stage",
+    "StateSpace",
     "Support",
     "Tank",
     "Thrust",
@@ -124,6 +138,7 @@ __all__ = [
     "Timeline",
     "Vehicle",
     "catalog",
+    "closed_loop",
     "critical_events",
     "critical_thrust",
     "discretise",
@@ -137,6 +152,7 @@ __all__ = [
     "response",
     "spectrum",
     "stability_map",
+    "state_space",
     "thrust_curve",
     "vanishing_damping_limit",
     "verify",

@@ -55,6 +55,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
         "tanks": _tanks(vehicle),
         "sensors": [part.model_dump() for part in vehicle.sensors],
+        "control": vehicle.control and vehicle.control.model_dump(),
         "timeline": _timeline(vehicle),
         "nondimensional": _groups(vehicle),
     }
