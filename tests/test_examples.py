@@ -201,6 +201,15 @@ def test_the_commands_of_the_page_on_the_control_loop_print_what_is_shown(contro
     assert [line.rstrip() for line in printed.splitlines()] == shown.splitlines()
 
 
+def test_the_largest_thrusts_of_the_page_on_the_control_loop_are_true():
+    for gain, *cells in re.findall(r"^\| ([\d.]+) \|" + r" ([\d.]+) \|" * 5, CONTROL, re.MULTILINE):
+        for station, cell in zip((0.0, 0.25, 0.5, 0.75, 1.0), cells, strict=True):
+            law = beal.Control(gains=[beal.Gain(sensor="imu", quantity="slope", gain=float(gain))])
+            sensors = (beal.Sensor(name="imu", station=station),)
+            vehicle = beal.catalog.beal().model_copy(update={"sensors": sensors, "control": law})
+            assert f"{beal.controlled_thrust(vehicle).critical_thrust:.6f}" == cell
+
+
 @pytest.mark.parametrize("block", blocks("python", CONTROL))
 def test_the_python_of_the_page_on_the_control_loop_prints_what_it_says(control_folder, block):
     expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]

@@ -9,7 +9,16 @@ from importlib.metadata import version as _version
 
 if _typing.TYPE_CHECKING:
     from beal import plot
-    from beal.control import ClosedLoop, StateSpace, closed_loop, state_space
+    from beal.control import (
+        ClosedLoop,
+        ControlledThrust,
+        Margins,
+        StateSpace,
+        closed_loop,
+        controlled_thrust,
+        stability_margins,
+        state_space,
+    )
     from beal.discretisation.build import discretise
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
@@ -51,6 +60,7 @@ _HOMES = {
     "BealError": "beal.errors",
     "ClosedLoop": "beal.control",
     "Control": "beal.vehicle.control",
+    "ControlledThrust": "beal.control",
     "ConvergenceError": "beal.errors",
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
@@ -63,6 +73,7 @@ _HOMES = {
     "Force": "beal.vehicle.parts",
     "Gain": "beal.vehicle.control",
     "Joint": "beal.vehicle.parts",
+    "Margins": "beal.control",
     "ModeShape": "beal.motion",
     "ModelError": "beal.errors",
     "Operators": "beal.discretisation.operators",
@@ -83,6 +94,7 @@ _HOMES = {
     "Vehicle": "beal.vehicle.vehicle",
     "catalog": "beal.vehicle.catalog",
     "closed_loop": "beal.control",
+    "controlled_thrust": "beal.control",
     "critical_events": "beal.stability.critical",
     "critical_thrust": "beal.stability.critical",
     "discretise": "beal.discretisation.build",
@@ -96,6 +108,7 @@ _HOMES = {
     "response": "beal.motion",
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
+    "stability_margins": "beal.control",
     "state_space": "beal.control",
     "thrust_curve": "beal.stability.curve",
     "vanishing_damping_limit": "beal.stability.vanishing",
@@ -107,6 +120,7 @@ __all__ = [
     "BealError",
     "ClosedLoop",
     "Control",
+    "ControlledThrust",
     "ConvergenceError",
     "CriticalThrust",
     "Damping",
@@ -119,6 +133,7 @@ __all__ = [
     "Force",
     "Gain",
     "Joint",
+    "Margins",
     "ModeShape",
     "ModelError",
     "Operators",
@@ -139,6 +154,7 @@ __all__ = [
     "Vehicle",
     "catalog",
     "closed_loop",
+    "controlled_thrust",
     "critical_events",
     "critical_thrust",
     "discretise",
@@ -152,6 +168,7 @@ __all__ = [
     "response",
     "spectrum",
     "stability_map",
+    "stability_margins",
     "state_space",
     "thrust_curve",
     "vanishing_damping_limit",

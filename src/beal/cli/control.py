@@ -1,17 +1,18 @@
 """``beal control``: the roots of the closed loop."""
 
 import math
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from beal.cli.options import AsJson, Model, Table
-from beal.cli.output import emit, new_path, new_result, note, show_table
+from beal.cli.output import emit, new_path, new_result, note, quantity, show_table
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
-    from beal.control import ClosedLoop
+    from beal.control import ClosedLoop, ControlledThrust, Margins
     from beal.vehicle.vehicle import Vehicle
 
 STATE_SPACE = (".mat", ".nc")
@@ -21,6 +22,7 @@ def control(
     model: Model,
     thrust: Annotated[float | None, typer.Option("--thrust", metavar="P", help="Else thrust.nominal.")] = None,
     modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 6,
+    largest: Annotated[bool, typer.Option("--critical", help="The largest stable thrust too.")] = False,
     output: Table = None,
     plant: Annotated[
         Path | None,
@@ -28,8 +30,8 @@ def control(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Roots of the vehicle with its control law closed."""
-    from beal.control import closed_loop, state_space
+    """Roots and margins of the vehicle with its control law closed."""
+    from beal.control import closed_loop, controlled_thrust, stability_margins, state_space
     from beal.interop import results
     from beal.interop.files import load, write_result
 
@@ -39,6 +41,8 @@ def control(
     vehicle = load(model)
     with new_result(output) as write:
         found = closed_loop(vehicle, thrust, modes)
+        margins = stability_margins(vehicle, thrust, modes)
+        critical = controlled_thrust(vehicle, modes=modes) if largest else None
         write(_columns(found), lambda: results.closed_loop(found))
     if plant:
         with new_path(plant) as part:
@@ -52,6 +56,8 @@ def control(
                 "stable": found.stable,
                 "rigid_body_roots": _pairs(found.rigid_body_roots),
                 "least_damped": _least(found),
+                "margins": _margins(margins),
+                **({"critical": asdict(critical)} if critical else {}),
                 "error_estimate": found.error_estimate,
                 "units": vehicle.units,
                 "file": str(output) if output else None,
@@ -60,6 +66,9 @@ def control(
         )
         return
     _show(vehicle, found)
+    _show_margins(vehicle, margins)
+    if critical:
+        print(_borne(vehicle, critical))
     for what, path in (("roots", output), ("state space", plant)):
         if path:
             note(f"{what} written to {path}")
@@ -72,6 +81,12 @@ def _least(found: "ClosedLoop") -> dict[str, Any]:
         "angular_frequency": abs(root.imag),
         "damping_ratio": -root.real / abs(root),
     }
+
+
+def _margins(found: "Margins") -> dict[str, Any]:
+    gain = [{**asdict(margin), "decibel": margin.decibel} for margin in found.gain]
+    phase = [{**asdict(margin), "delay": margin.delay} for margin in found.phase]
+    return {"gain": gain, "phase": phase}
 
 
 def _pairs(roots: Any) -> Any:
@@ -97,3 +112,33 @@ def _show(vehicle: "Vehicle", found: "ClosedLoop") -> None:
         rows = [[real, imag, imag / (2 * math.pi), ratio] for real, imag, ratio in rows]
         columns.append("frequency [Hz]")
     show_table([*columns, "damping ratio"], rows)
+
+
+def _show_margins(vehicle: "Vehicle", found: "Margins") -> None:
+    rows: list[list[Any]] = [
+        ["gain", margin.angular_frequency, _mode(margin.mode), margin.decibel, margin.factor] for margin in found.gain
+    ]
+    rows += [
+        ["phase", margin.angular_frequency, _mode(margin.mode), margin.degrees, margin.delay] for margin in found.phase
+    ]
+    if rows:
+        unit = (" [rad/s]", " [s]") if vehicle.units == "SI" else ("", "")
+        columns = ["name", f"angular frequency{unit[0]}", "near", "margin [dB, deg]", f"factor, delay{unit[1]}"]
+        rows.sort(key=lambda row: row[1])
+        show_table(columns, rows)
+
+
+def _mode(number: int) -> str:
+    return f"mode {number}" if number else "rigid body"
+
+
+def _borne(vehicle: "Vehicle", found: "ControlledThrust") -> str:
+    unit = "N" if vehicle.units == "SI" else ""
+    if found.critical_thrust is None or found.angular_frequency is None:
+        return f"stable up to {quantity(found.searched_to, unit)}, as far as was searched"
+    if not found.critical_thrust:
+        return "unstable under any thrust"
+    thrust = quantity(found.critical_thrust, unit, found.error_estimate)
+    if found.kind == "divergence":
+        return f"with the loop closed: diverges at P = {thrust}"
+    return f"with the loop closed: flutters at P = {thrust}, {found.angular_frequency:.6g}{' rad/s' * bool(unit)}"

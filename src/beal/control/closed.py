@@ -115,21 +115,23 @@ def closed_loop(model: Vehicle | Operators, thrust: float | None = None, modes: 
         raise ModelError(f"modes: must be at least 1, found {modes}")
     with one_thread():
         if isinstance(model, Operators):
-            found = lowest_roots(loop(model), thrust, modes)
-            return ClosedLoop(thrust, found, loop(model).zero_roots, np.full(len(found), np.nan))
-        before: ComplexArray | None = None
+            closed = loop(model)
+            s = lowest_roots(closed, thrust, modes)
+            return ClosedLoop(thrust, s, closed.zero_roots, np.full(len(s), np.nan))
+        before, best = np.empty(0, dtype=complex), np.inf
         for closed in refinements(vehicle, modes):
             s = lowest_roots(closed, thrust, modes)
-            if before is not None and len(before) == len(s):
-                error = np.abs(s - before)
+            if len(before):
+                error = np.abs(s[:, None] - before).min(axis=1)
                 change = float(np.max(error / np.maximum(np.abs(s), closed.speed)))
-                if change < GOOD:
-                    break
+                if change < best:
+                    best, found = change, ClosedLoop(thrust, s, closed.zero_roots, error)
+                if best < GOOD:
+                    return found
             before = s
-        else:
-            if before is None or change > POOR:
-                raise ConvergenceError(f"modes: the roots of {modes} modes do not converge; ask for fewer")
-    return ClosedLoop(thrust, s, closed.zero_roots, error)
+    if best > POOR:
+        raise ConvergenceError(f"modes: the roots of {modes} modes do not converge; ask for fewer")
+    return found
 
 
 def thrust_of(vehicle: Vehicle, thrust: float | None) -> float:
