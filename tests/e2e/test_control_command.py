@@ -54,6 +54,24 @@ def test_roots_and_state_space_are_written(model, beal_here, tmp_path):
     ]
 
 
+@pytest.mark.parametrize("options", [(), ("--over", "gain"), ("--over", "sensor[0].station", "--to", 0.9)])
+def test_the_root_locus_is_drawn_beside_the_answer(model, result_of, tmp_path, options):
+    found = result_of("control", model, "--figure", "locus.png", *options)
+    assert found["figure"] == "locus.png"
+    assert (tmp_path / "locus.png").read_bytes().startswith(b"\x89PNG")
+    del found["figure"]
+    assert found == result_of("control", model)
+
+
+def test_margins_and_the_largest_thrust_are_told(written, result_of, beal_here):
+    damped = MODEL.replace("bending_stiffness = 1.0", "bending_stiffness = 1.0\ninternal_damping = 0.001")
+    model = written(damped.replace("[control]", "[control]\nlag = 0.01"))
+    found = result_of("control", model, "--critical")
+    assert set(found["margins"]["phase"][0]) == {"degrees", "angular_frequency", "mode", "delay"}
+    assert set(found["critical"]) >= {"critical_thrust", "kind", "angular_frequency", "error_estimate"}
+    assert "with the loop closed: " in beal_here("control", written(MODEL), "--critical").stdout
+
+
 @pytest.mark.parametrize(
     ("change", "options", "message"),
     [
@@ -63,6 +81,13 @@ def test_roots_and_state_space_are_written(model, beal_here, tmp_path):
         (("nominal = 10.0", ""), [], "thrust: give one"),
         (("", ""), ["--thrust", "-3"], "thrust: must be finite and not negative, found -3"),
         (("", ""), ["--modes", "0"], "modes: must be at least 1"),
+        (("", ""), ["--over", "gain"], "--over, --to: say what a figure shows"),
+        (("", ""), ["--figure", "a.png", "--over", "joint[0].shear_stiffness"], "joint[0].shear_stiffness"),
+        (
+            ("", ""),
+            ["--figure", "a.png", "--to", "0"],
+            "--to: must be a finite number other than the first, 0",
+        ),
         (("", ""), ["--state-space", "open.csv"], "--state-space: must end with .mat or .nc, found .csv"),
     ],
 )

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.options import AsJson, Model, Table
+from beal.cli.figures import control_figure, named, new_figure
+from beal.cli.options import AsJson, Figure, Model, Table
 from beal.cli.output import emit, new_path, new_result, note, quantity, show_table
 from beal.errors import ModelError
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from beal.vehicle.vehicle import Vehicle
 
 STATE_SPACE = (".mat", ".nc")
+DRAWN, POINTS, BEYOND = 3, 201, 2.0  # modes and points of a figure, and how many times thrust or gains it reaches
 
 
 def control(
@@ -23,7 +25,12 @@ def control(
     thrust: Annotated[float | None, typer.Option("--thrust", metavar="P", help="Else thrust.nominal.")] = None,
     modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 6,
     largest: Annotated[bool, typer.Option("--critical", help="The largest stable thrust too.")] = False,
+    over: Annotated[
+        str, typer.Option("--over", metavar="NAME", help="What varies in the figure: thrust, gain, or a path.")
+    ] = "thrust",
+    to: Annotated[float | None, typer.Option("--to", metavar="X", help="Up to there; of a gain, a factor.")] = None,
     output: Table = None,
+    figure: Figure = None,
     plant: Annotated[
         Path | None,
         typer.Option("--state-space", metavar="FILE", help="Write the open loop there: .mat or .nc."),
@@ -31,19 +38,25 @@ def control(
     as_json: AsJson = False,
 ) -> None:
     """Roots and margins of the vehicle with its control law closed."""
-    from beal.control import closed_loop, controlled_thrust, stability_margins, state_space
+    from beal.control import closed_loop, control_locus, controlled_thrust, stability_margins, state_space
     from beal.interop import results
     from beal.interop.files import load, write_result
 
     if plant and plant.suffix.lower() not in STATE_SPACE:
         known = " or ".join(STATE_SPACE)
         raise ModelError(f"--state-space: must end with {known}, found {plant.suffix or 'no ending'}", str(plant))
+    if not figure and (over != "thrust" or to is not None):
+        raise ModelError("--over, --to: say what a figure shows; give --figure FILE")
     vehicle = load(model)
-    with new_result(output) as write:
+    with new_figure(figure, as_json) as draw, new_result(output) as write:
         found = closed_loop(vehicle, thrust, modes)
         margins = stability_margins(vehicle, thrust, modes)
         critical = controlled_thrust(vehicle, modes=modes) if largest else None
         write(_columns(found), lambda: results.closed_loop(found))
+        if figure:
+            values = _values(vehicle, over, to, found.thrust)
+            locus = control_locus(vehicle, over, values, found.thrust, min(modes, DRAWN))
+            draw(lambda: control_figure(locus, vehicle.units == "nondimensional"))
     if plant:
         with new_path(plant) as part:
             matrices = state_space(vehicle, thrust, modes=modes)
@@ -62,6 +75,7 @@ def control(
                 "units": vehicle.units,
                 "file": str(output) if output else None,
                 "state_space": str(plant) if plant else None,
+                **named(figure),
             }
         )
         return
@@ -72,6 +86,17 @@ def control(
     for what, path in (("roots", output), ("state space", plant)):
         if path:
             note(f"{what} written to {path}")
+
+
+def _values(vehicle: "Vehicle", over: str, to: float | None, thrust: float) -> "list[float]":
+    """From nothing, or what the quantity is, to where the figure ends."""
+    from beal.vehicle.paths import value_at
+
+    start = 0.0 if over in ("thrust", "gain") else value_at(vehicle, over)
+    end = BEYOND * {"thrust": thrust, "gain": 1.0}.get(over, start) if to is None else to
+    if not math.isfinite(end) or end == start:
+        raise ModelError(f"--to: must be a finite number other than the first, {start:g}, found {end:g}")
+    return [start + (end - start) * n / (POINTS - 1) for n in range(POINTS)]
 
 
 def _least(found: "ClosedLoop") -> dict[str, Any]:
