@@ -85,7 +85,8 @@ def controlled_thrust(vehicle: Vehicle, max_thrust: float | None = None, modes: 
 
     References
     ----------
-    Wu, J. J., 1976. On missile stability. Journal of Sound and Vibration, 49(1), 141-147.
+    Wu, J. J., 1975. On the stability of a free-free beam under axial thrust subjected to directional control. Journal
+    of Sound and Vibration, 43(1), 45-52.
     Park, Y. P., Mote, C. D., 1985. The maximum controlled follower force on a free-free beam carrying a concentrated
     mass. Journal of Sound and Vibration, 98, 247-256.
 
