@@ -16,6 +16,7 @@ ROOMS = [
     "discretisation",
     "stability",
     "motion",
+    "control",
     "interop",
     "study",
     "verification",

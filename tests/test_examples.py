@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "flight", "interop", "maps", "model")
-CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "control", "flight", "interop", "maps", "model")
+CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -84,8 +84,9 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model", "verification"]
+    assert sorted(PAGES) == ["clusters", "control", "flight", "interop", "maps", "model", "verification"]
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
+    assert set(re.findall(r"^```(\w+)$", CONTROL, re.MULTILINE)) == {"toml", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
@@ -185,6 +186,34 @@ def test_the_inline_timeline_of_the_page_on_flights_is_understood(flight_folder)
     model, inline = blocks("toml", FLIGHT)
     (flight_folder / "launcher.toml").write_text(model.partition("[timeline]")[0] + inline)
     assert "188.7" in run([*BEAL, "flight", "launcher.toml"], flight_folder)
+
+
+@pytest.fixture
+def control_folder(tmp_path):
+    (tmp_path / "missile.toml").write_text(blocks("toml", CONTROL)[0])
+    return tmp_path
+
+
+@pytest.mark.parametrize("block", blocks("console", CONTROL))
+def test_the_commands_of_the_page_on_the_control_loop_print_what_is_shown(control_folder, block):
+    command, _, shown = block.partition("\n")
+    printed = run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], control_folder)
+    assert [line.rstrip() for line in printed.splitlines()] == shown.splitlines()
+
+
+def test_the_largest_thrusts_of_the_page_on_the_control_loop_are_true():
+    for gain, *cells in re.findall(r"^\| ([\d.]+) \|" + r" ([\d.]+) \|" * 5, CONTROL, re.MULTILINE):
+        for station, cell in zip((0.0, 0.25, 0.5, 0.75, 1.0), cells, strict=True):
+            law = beal.Control(gains=[beal.Gain(sensor="imu", quantity="slope", gain=float(gain))])
+            sensors = (beal.Sensor(name="imu", station=station),)
+            vehicle = beal.catalog.beal().model_copy(update={"sensors": sensors, "control": law})
+            assert f"{beal.controlled_thrust(vehicle).critical_thrust:.6f}" == cell
+
+
+@pytest.mark.parametrize("block", blocks("python", CONTROL))
+def test_the_python_of_the_page_on_the_control_loop_prints_what_it_says(control_folder, block):
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], control_folder).strip() == expected
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))

@@ -26,6 +26,7 @@ COMMANDS = [
     "critical",
     "curve",
     "flight",
+    "control",
     "map",
     "response",
     "reproduce",

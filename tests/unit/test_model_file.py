@@ -90,7 +90,7 @@ def test_all_problems_are_listed_under_the_name_of_the_file(tmp_path):
     with pytest.raises(ModelError) as caught:
         load(path)
     known = "title, units, stage, joint, point_mass, tank, support, thrust, damping, distributed_thrust, "
-    known += "axial_load, gravity, sensor, force, timeline"
+    known += "axial_load, gravity, sensor, force, control, timeline"
     of_thrust = "tangency, scale, station, line, along, axial_term, axial_force, nominal"
     assert str(caught.value).splitlines() == [
         f"{path}: 5 problems",

@@ -53,13 +53,15 @@ class TransferMatrix:
         steps = {x for table in tables for x in table.x}
         for start, stage in zip(vehicle.boundaries, vehicle.stages, strict=False):
             steps |= {start + x for table in stage.tables.values() for x in table.x}
-        stations = {*vehicle.boundaries, *steps, *(lump.station for lump in vehicle.point_masses)}
+        lumps, sensors = (tuple(part.station for part in parts) for parts in (vehicle.point_masses, vehicle.sensors))
+        stations = {*vehicle.boundaries, *steps, *lumps, *sensors}
         self.stations = sorted(stations)
 
     def __call__(self, thrust: complex, root: complex) -> complex:
         """F(P, lambda)."""
         state = np.eye(4, dtype=complex)
         nose = self._end(0, state, -state[3], -state[2])
+        delta = self._turned(0.0, self._slope(np.array(0.0), thrust, root) @ state)
         for lump in self._lumps(0.0):
             state = self._lump(lump, root) @ state
         for front, back in zip(self.stations, self.stations[1:], strict=False):
@@ -67,12 +69,19 @@ class TransferMatrix:
                 state = matrix @ state
             inside = np.array(back * (1 - 1e-15))  # forward of lumps there
             turned = self._slope(inside, thrust, root) @ state
+            delta = delta + self._turned(back, turned)
             if back in self.vehicle.boundaries[1:-1]:
                 joint = self.vehicle.joints[self.vehicle.boundaries.index(back) - 1]
                 state = self._joint(joint, thrust * self._compression(inside), root) @ state
             for lump in self._lumps(back):
                 state = self._lump(lump, root) @ state
-        return complex(np.linalg.det(np.vstack((nose, self._tail(thrust, state, turned)))))
+        return complex(np.linalg.det(np.vstack((nose, self._tail(thrust, state, turned, delta)))))
+
+    def _turned(self, station: float, slope: np.ndarray) -> np.ndarray:
+        """What the sensors at a station add to the angle of the thrust, by a law on slopes alone."""
+        here = {sensor.name for sensor in self.vehicle.sensors if sensor.station == station}
+        gains = self.vehicle.control.gains if self.vehicle.control else ()
+        return sum(part.gain for part in gains if part.sensor in here) * slope
 
     def _lumps(self, station: float) -> Iterator:
         return (lump for lump in self.vehicle.point_masses if lump.station == station)
@@ -154,13 +163,14 @@ class TransferMatrix:
         springs = zip(self.vehicle.support.stiffness[end], state[:2], (force, moment), strict=True)
         return np.array([moved if math.isinf(k) else k * moved + load for k, moved, load in springs])
 
-    def _tail(self, thrust: complex, state: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    def _tail(self, thrust: complex, state: np.ndarray, slope: np.ndarray, delta: np.ndarray) -> np.ndarray:
         """Conditions under the thrust, which goes with the slope inside of a lump at the tail."""
         given = self.vehicle.thrust
         P = thrust * given.scale * given.tangency
         if given.line == "fixed":
             return self._end(1, state, state[3], state[2] + P * state[0])
-        return self._end(1, state, state[3] + P * (slope if given.along == "slope" else state[1]), state[2])
+        force = P * (slope if given.along == "slope" else state[1]) + thrust * given.scale * delta
+        return self._end(1, state, state[3] + force, state[2])
 
 
 def integral(given: float | StationTable, x: np.ndarray) -> np.ndarray:
@@ -191,10 +201,13 @@ def damped_flutter(vehicle: Vehicle, thrust: float, omega: float, damping: float
 
 
 def divergence(vehicle: Vehicle, thrust: float) -> float:
-    """The thrust next to a guess at which a root is zero, beside the two of W that a vehicle in flight always has."""
+    """The thrust next to a guess at which a root is zero, beside the two of W that a vehicle in flight always has.
+
+    A law on the slope leaves it one, that of the translation.
+    """
     characteristic = TransferMatrix(vehicle)
     W = RADIUS * np.exp(2j * np.pi * (np.arange(CIRCLE) + 0.5) / CIRCLE) if vehicle.free_free else np.array([0.0])
-    zeros = 2 if vehicle.free_free else 0
+    zeros = (1 if vehicle.control else 2) if vehicle.free_free else 0
 
     def equation(P: float) -> float:
         return np.mean([characteristic(P, np.sqrt(-w + 0j)) / w**zeros for w in W]).real

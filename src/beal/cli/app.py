@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from beal import __version__
+from beal.cli.control import control
 from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
@@ -22,6 +23,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "critical": (critical, "beal critical tsto.toml --all --json"),
     "curve": (curve, "beal curve tsto.toml --to 150 -o curve.csv"),
     "flight": (flight, "beal flight launcher.toml --figure flight.png"),
+    "control": (control, "beal control launcher.toml --thrust 90 --json"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),

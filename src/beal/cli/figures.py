@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from beal.control import ControlLocus
     from beal.discretisation.operators import Operators
     from beal.motion import Response
     from beal.stability.complete import Event
@@ -136,6 +137,17 @@ def response_figure(found: "Response", nondimensional: bool) -> "Figure":
         for quantity, ax in zip(QUANTITIES, column, strict=True):
             plot.response(found, ax, sensor, quantity, nondimensional)
             ax.label_outer()
+    return figure
+
+
+def control_figure(locus: "ControlLocus", nondimensional: bool) -> "Figure":
+    """The paths of the closed loop's roots."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(WIDE, 1.3 * HIGH), layout="constrained")
+    plot.control_locus(locus, figure.subplots(), nondimensional)
     return figure
 
 

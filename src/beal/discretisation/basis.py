@@ -67,8 +67,9 @@ def _loaded(vehicle: Vehicle) -> Iterator[float]:
     """Stations where a load sets in or changes its course."""
     for parts in (vehicle.point_masses, vehicle.forces, vehicle.axial_loads):
         yield from (part.station for part in parts)
-    if vehicle.thrust.station is not None:
-        yield vehicle.thrust.station
+    for turned in (vehicle.thrust, vehicle.control):
+        if turned is not None and turned.station is not None:
+            yield turned.station
     for load in vehicle.distributed_thrusts:
         if isinstance(load.value, StationTable):
             yield from bends(load.value)[0].tolist()

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beal.control import ClosedLoop, StateSpace
 from beal.discretisation.operators import Operators
 from beal.motion.histories import Response
 from beal.stability.curve import ThrustCurve
@@ -117,6 +118,55 @@ def response(found: Response) -> "xarray.Dataset":
         {name: (("sensor", "time"), getattr(found, name)) for name in ("displacement", "rate", "slope")},
         {"sensor": list(found.sensors), "time": found.time},
         {"thrust": found.thrust, "method": found.method, "step": found.step},
+    )
+
+
+def closed_loop(found: ClosedLoop) -> "xarray.Dataset":
+    """The roots of a closed loop.
+
+    Parameters
+    ----------
+    found : ClosedLoop
+
+    Returns
+    -------
+    xarray.Dataset
+        ``real``, ``imag`` and ``damping_ratio`` over ``root``.
+    """
+    return _labelled(
+        {
+            "real": ("root", found.roots.real),
+            "imag": ("root", found.roots.imag),
+            "damping_ratio": ("root", found.damping_ratio),
+        },
+        {"root": np.arange(1, len(found.roots) + 1, dtype=np.int32)},
+        {"thrust": found.thrust, "rigid_body_roots": found.drift},
+    )
+
+
+def state_space(found: StateSpace) -> "xarray.Dataset":
+    """The matrices of a state space with the names and units of what they relate.
+
+    Parameters
+    ----------
+    found : StateSpace
+
+    Returns
+    -------
+    xarray.Dataset
+        ``A`` and ``B`` over ``rate`` (the state whose rate a row gives), ``C`` and ``D`` over ``output``.
+    """
+    return _labelled(
+        {
+            "A": (("rate", "state"), found.A),
+            "B": (("rate", "input"), found.B),
+            "C": (("output", "state"), found.C),
+            "D": (("output", "input"), found.D),
+            "input_unit": ("input", list(found.input_units)),
+            "output_unit": ("output", list(found.output_units)),
+        },
+        {"state": list(found.states), "input": list(found.inputs), "output": list(found.outputs)},
+        {"thrust": found.thrust},
     )
 
 

@@ -1,5 +1,6 @@
 """Results to matplotlib axes: each function draws one result and computes nothing."""
 
+from beal.plot.control import control_locus
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
@@ -9,6 +10,7 @@ from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 
 __all__ = [
+    "control_locus",
     "deflections",
     "flight",
     "growth_rates",

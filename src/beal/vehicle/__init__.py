@@ -1,6 +1,7 @@
 """What the user describes: the parts of a vehicle, the vehicle, its file format and a catalog."""
 
 from beal.vehicle import catalog
+from beal.vehicle.control import Control, Filter, Gain
 from beal.vehicle.file import dumps, loads
 from beal.vehicle.parts import (
     AxialLoad,
@@ -26,10 +27,13 @@ from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
     "AxialLoad",
+    "Control",
     "Damping",
     "DistributedThrust",
     "ElasticEnd",
+    "Filter",
     "Force",
+    "Gain",
     "Joint",
     "PointMass",
     "Pulse",

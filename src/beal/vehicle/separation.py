@@ -13,7 +13,7 @@ def attached(vehicle: Vehicle, first: int, last: int) -> Vehicle:
     """Some neighbouring stages of a vehicle, with what sits on them; stations count from the new nose.
 
     What sits at a joint belongs to the stage aft of it. The thrust acts at the new tail, or at its station where that
-    is still attached.
+    is still attached. The control law is that of the whole vehicle and goes.
 
     Parameters
     ----------
@@ -54,6 +54,7 @@ def attached(vehicle: Vehicle, first: int, last: int) -> Vehicle:
             "joints": vehicle.joints[first - 1 : last - 1],
             "tanks": [_moved(tank, nose, tail) for tank in vehicle.tanks if _within(vehicle, tank, nose, tail)],
             "timeline": None,
+            "control": None,
             "thrust": vehicle.thrust.model_copy(
                 update={"station": None if station is None or left else _shifted(station, nose, tail)}
             ),

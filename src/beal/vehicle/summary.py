@@ -55,6 +55,9 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "point_masses": [part.model_dump() for part in vehicle.point_masses],
         "tanks": _tanks(vehicle),
         "sensors": [part.model_dump() for part in vehicle.sensors],
+        "control": vehicle.control and vehicle.control.model_dump(exclude={"gains", "filters"}),
+        "gains": [part.model_dump() for part in vehicle.control.gains] if vehicle.control else [],
+        "filters": [part.model_dump() for part in vehicle.control.filters] if vehicle.control else [],
         "timeline": _timeline(vehicle),
         "nondimensional": _groups(vehicle),
     }

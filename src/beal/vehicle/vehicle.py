@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field, FiniteFloat, model_validator
 
 from beal.vehicle.base import Misfit, Part, refusal, si, together
+from beal.vehicle.control import Control, unheard
 from beal.vehicle.parts import (
     AxialLoad,
     Damping,
@@ -87,6 +88,8 @@ class Vehicle(Part):
         flight gravity accelerates all parts alike.
     sensors : sequence of Sensor
     forces : sequence of Force
+    control : Control, optional
+        Thrust vector control, see `beal.closed_loop`; what is said of the vehicle elsewhere is without it.
     timeline : Timeline, optional
         Of a flight, see `beal.flight`.
     title : str
@@ -118,6 +121,7 @@ class Vehicle(Part):
     gravity: Annotated[FiniteFloat, si("m/s^2")] = 0.0
     sensors: tuple[Sensor, ...] = Field(alias="sensor", default=())
     forces: tuple[Force, ...] = Field(alias="force", default=())
+    control: Control | None = None
     timeline: Timeline | None = None
 
     @model_validator(mode="wrap")
@@ -282,15 +286,17 @@ def _misfits(data: dict[str, Any]) -> Iterator[Misfit]:
                 if station > total * (1 + 1e-12):
                     message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
                     yield (alias, index, field), message, station
-    station = metres(_field(data, "thrust"), "station")
-    if station > total * (1 + 1e-12):
-        message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
-        yield ("thrust", "station"), message, station
+    for name in ("thrust", "control"):
+        station = metres(_field(data, name), "station")
+        if station > total * (1 + 1e-12):
+            message = f"must lie on the vehicle, 0 to {total:.12g}, found {station:.12g}"
+            yield (name, "station"), message, station
     for alias, name in (("tank", "tanks"), ("sensor", "sensors")):
         names = [_field(part, "name") for part in _parts(data, alias, name)]
         for index, given in enumerate(names):
             if isinstance(given, str) and given in names[:index]:
                 yield (alias, index, "name"), f"must be unique, found {given!r} again", given
+    yield from unheard(data.get("control"), [_field(part, "name") for part in _parts(data, "sensor", "sensors")])
     tanks = [_field(tank, "name") for tank in _parts(data, "tank", "tanks")]
     yield from strangers(data.get("timeline"), tanks, len(stages))
 

@@ -12,9 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from beal.discretisation.build import RITZ, Formulation, discretise
+from beal.control import ClosedLoop, ControlledThrust, closed_loop, controlled_thrust
+from beal.control.loop import loop
+from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.stability.critical import CriticalThrust, critical_thrust
 from beal.stability.modes import converged_modes
+from beal.stability.pencil import Array
 from beal.stability.spectrum import spectrum
 from beal.stability.vanishing import vanishing_damping_limit
 from beal.vehicle.parts import Joint, Stage
@@ -81,6 +84,35 @@ def frequencies(vehicle: Vehicle, thrust: float, count: int) -> dict[str, Measur
     return {frequency_name(number, thrust): Measured(*row) for number, row in enumerate(rows, 1)}
 
 
+def controlled(vehicle: Vehicle) -> dict[str, Measured]:
+    """The largest thrust with the control law closed, of a law without damping and delay, and the frequency there."""
+    found = controlled_thrust(vehicle)
+
+    def fixed(basis: BasisName, order: int) -> CriticalThrust:
+        return critical_thrust(loop(discretise(vehicle, basis=basis, order=order)).closed())
+
+    coarse, fine = (np.array(_point(fixed("hermite", n), found.kind)) for n in ELEMENTS)
+    thrust, omega = (fine + (fine - coarse) / 15).tolist()
+    return _compared(found, (thrust, omega), [fixed("legendre", n) for n in FINER], ", controlled")
+
+
+def controlled_frequencies(vehicle: Vehicle, thrust: float, count: int) -> dict[str, Measured]:
+    """The lowest angular frequencies of the closed loop at a thrust, the attitude's first."""
+
+    def upper(found: ClosedLoop) -> Array:
+        return np.sort(found.roots.imag[found.roots.imag > 0])[:count]
+
+    found = closed_loop(vehicle, thrust, count)
+    coarse, fine = (upper(closed_loop(discretise(vehicle, basis="hermite", order=n), thrust, count)) for n in ELEMENTS)
+    omega, second = upper(found), fine + (fine - coarse) / 15
+    error = float(found.error_estimate.max()) + ROUNDING * float(omega[-1])
+    rows = zip(omega.tolist(), second.tolist(), strict=True)
+    return {
+        frequency_name(number, thrust) + ", controlled": Measured(value, error, other)
+        for number, (value, other) in enumerate(rows, 1)
+    }
+
+
 def frequency_name(number: int, thrust: float) -> str:
     """What the frequency of a mode at a thrust is called."""
     return f"frequency {number} at P = {thrust:.6g}"
@@ -92,7 +124,7 @@ def suffix(formulation: Formulation) -> str:
 
 
 def _compared(
-    found: CriticalThrust, second: tuple[float, float], peers: list[CriticalThrust], note: str = ""
+    found: CriticalThrust | ControlledThrust, second: tuple[float, float], peers: list[CriticalThrust], note: str = ""
 ) -> dict[str, Measured]:
     """Thrust and frequency beside their second values; what peers move is part of the error."""
     thrust, omega = _point(found, found.kind)
@@ -105,7 +137,7 @@ def _compared(
     return measured
 
 
-def _point(found: CriticalThrust, kind: str) -> tuple[float, float]:
+def _point(found: CriticalThrust | ControlledThrust, kind: str) -> tuple[float, float]:
     """Thrust and frequency of an instability of this kind."""
     thrust, omega = found.critical_thrust, found.angular_frequency
     return (math.nan, math.nan) if thrust is None or omega is None or found.kind != kind else (thrust, omega)

@@ -3,10 +3,10 @@
 from collections.abc import Callable
 
 from beal.errors import ModelError
-from beal.verification import becks, columns, damped, joints, missiles, pendulum, timoshenko
+from beal.verification import becks, columns, controlled, damped, joints, missiles, pendulum, timoshenko
 from beal.verification.case import Case, Row
 
-FAMILIES = (becks, columns, pendulum, missiles, joints, timoshenko, damped)
+FAMILIES = (becks, columns, pendulum, missiles, controlled, joints, timoshenko, damped)
 CASES: tuple[Case, ...] = tuple(case for family in FAMILIES for case in family.CASES)
 
 Progress = Callable[[int, int], None]

@@ -11,12 +11,13 @@ from beal.vehicle.catalog.beck import (
 )
 from beal.vehicle.catalog.columns import euler, greenhill, hauger, leipholz, pflueger, reut
 from beal.vehicle.catalog.launcher import generic_small_launcher
-from beal.vehicle.catalog.missiles import beal, mladenov_sugiyama, park_mote, tsto
+from beal.vehicle.catalog.missiles import beal, beal_controlled, mladenov_sugiyama, park_mote, tsto
 from beal.vehicle.catalog.pendulum import ziegler
 from beal.vehicle.catalog.timoshenko import beal_timoshenko, beck_timoshenko
 
 __all__ = [
     "beal",
+    "beal_controlled",
     "beal_timoshenko",
     "beck",
     "beck_cracked",

@@ -3,6 +3,7 @@
 import math
 
 from beal.vehicle.catalog.uniform import beam, divided
+from beal.vehicle.control import Control, Gain
 from beal.vehicle.parts import Joint, PointMass, Sensor, ShearAxis
 from beal.vehicle.vehicle import Vehicle
 
@@ -33,6 +34,42 @@ def beal(internal_damping: float = 0.0) -> Vehicle:
     (True, 'inertia')
     """
     return Vehicle(title="Beal's missile", units="nondimensional", stages=[beam(internal_damping=internal_damping)])
+
+
+def beal_controlled(gain: float, station: float) -> Vehicle:
+    """Beal's missile, its thrust turned against the slope at a station.
+
+    A zero-frequency root at 25.6381814 whatever the gain and the station; a high gain on a sensor far forward makes the
+    attitude and the first bending mode flutter before that. Computed values.
+
+    Parameters
+    ----------
+    gain : float
+        Angle of the thrust over the slope; positive restores the attitude.
+    station : float
+        Of the sensor, as a share of the length from the nose.
+
+    Returns
+    -------
+    Vehicle
+
+    References
+    ----------
+    Wu, J. J., 1975. On the stability of a free-free beam under axial thrust subjected to directional control. Journal
+    of Sound and Vibration, 43(1), 45-52.
+
+    Examples
+    --------
+    >>> beal_controlled(0.5, 0.3).control.gains[0].gain
+    0.5
+    """
+    return Vehicle(
+        title="Beal's missile with directional control",
+        units="nondimensional",
+        stages=[beam()],
+        sensors=[Sensor(name="imu", station=station)],
+        control=Control(gains=[Gain(sensor="imu", quantity="slope", gain=gain)]),
+    )
 
 
 def park_mote(mass_ratio: float, station: float, rotary_inertia: float = 0.0) -> Vehicle:
