@@ -17,10 +17,13 @@ if _typing.TYPE_CHECKING:
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
+    from beal.stability.floquet import Floquet, floquet
+    from beal.stability.resonances import Resonance
     from beal.stability.spectrum import Spectrum, spectrum
     from beal.stability.vanishing import vanishing_damping_limit
     from beal.study.flight import Flight, FlightState, flight
     from beal.study.map import stability_map
+    from beal.study.pulsating import floquet_chart
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
     from beal.vehicle.file import dumps, loads
@@ -55,6 +58,7 @@ _HOMES = {
     "Event": "beal.stability.complete",
     "Flight": "beal.study.flight",
     "FlightState": "beal.study.flight",
+    "Floquet": "beal.stability.floquet",
     "Force": "beal.vehicle.parts",
     "Joint": "beal.vehicle.parts",
     "ModeShape": "beal.motion",
@@ -63,6 +67,7 @@ _HOMES = {
     "PointMass": "beal.vehicle.parts",
     "RefinedMap": "beal.study.refined",
     "Release": "beal.motion",
+    "Resonance": "beal.stability.resonances",
     "Response": "beal.motion",
     "Samples": "beal.motion",
     "Sensor": "beal.vehicle.parts",
@@ -75,6 +80,8 @@ _HOMES = {
     "Timeline": "beal.vehicle.timeline",
     "Vehicle": "beal.vehicle.vehicle",
     "flight": "beal.study.flight",
+    "floquet": "beal.stability.floquet",
+    "floquet_chart": "beal.study.pulsating",
     "growth_rate": "beal.motion",
     "catalog": "beal.vehicle.catalog",
     "critical_events": "beal.stability.critical",
@@ -104,6 +111,7 @@ __all__ = [
     "Event",
     "Flight",
     "FlightState",
+    "Floquet",
     "Force",
     "Joint",
     "ModeShape",
@@ -112,6 +120,7 @@ __all__ = [
     "PointMass",
     "RefinedMap",
     "Release",
+    "Resonance",
     "Response",
     "Samples",
     "Sensor",
@@ -129,6 +138,8 @@ __all__ = [
     "discretise",
     "dumps",
     "flight",
+    "floquet",
+    "floquet_chart",
     "growth_rate",
     "load",
     "loads",

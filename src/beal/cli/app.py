@@ -10,6 +10,7 @@ from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
 from beal.cli.flight import flight
+from beal.cli.floquet import floquet
 from beal.cli.maps import map_study, reproduce
 from beal.cli.models import check, example
 from beal.cli.modes import modes
@@ -22,6 +23,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "critical": (critical, "beal critical tsto.toml --all --json"),
     "curve": (curve, "beal curve tsto.toml --to 150 -o curve.csv"),
     "flight": (flight, "beal flight launcher.toml --figure flight.png"),
+    "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),
