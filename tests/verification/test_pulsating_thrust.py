@@ -17,7 +17,7 @@ import beal
 from beal.discretisation import discretise
 from beal.stability.periodic import monodromy, pulsating_equations
 from beal.stability.resonances import resonances
-from beal.vehicle import Stage, Support, Thrust, Vehicle, catalog
+from beal.vehicle import Joint, Stage, Support, Thrust, Vehicle, catalog
 
 PINNED = Vehicle(
     units="nondimensional",
@@ -162,6 +162,30 @@ def by_magnus(operators, thrust, amplitude, omega, steps=600):
         a, b = (generator(h * (n + 0.5 + sign * math.sqrt(3) / 6)) for sign in (-1, 1))
         result = expm(h / 2 * (a + b) + math.sqrt(3) / 12 * h**2 * (b @ a - a @ b)) @ result
     return result
+
+
+def uniform(**damping):
+    return Stage(length=0.5, mass_per_length=1.0, bending_stiffness=1.0, **damping)
+
+
+FLEXIBLE = Joint(rotational_stiffness=100.0, shear_stiffness=500.0)
+DAMPED = {
+    "internal": ([uniform(internal_damping=0.01)] * 2, FLEXIBLE),
+    "external": ([uniform(external_damping=0.5), uniform()], FLEXIBLE),
+    "joint": ([uniform()] * 2, FLEXIBLE.model_copy(update={"rotational_damping": 1.0, "shear_damping": 3.0})),
+}
+
+
+@pytest.mark.parametrize("name", DAMPED)
+def test_multipliers_of_damped_vehicles_are_those_of_all_coordinates(name):
+    stages, joint = DAMPED[name]
+    vehicle = Vehicle(units="nondimensional", stages=stages, joints=[joint], support=Support(nose="clamped"))
+    operators = discretise(vehicle, order=10)
+    for omega in (4.0, 8.2, 17.0):
+        found = beal.floquet(vehicle, 5.0, 2.0, omega)
+        largest = np.abs(np.linalg.eigvals(by_magnus(operators, 5.0, 2.0, omega))).max()
+        assert found.largest_modulus == pytest.approx(largest, abs=1e-7)
+        assert abs(found.largest_modulus - largest) <= 2 * found.error_estimate + 1e-9
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -15,9 +15,9 @@ from beal.stability.resonances import Resonance, nearest, resonances
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
-MODES, FEWER = 8, 2  # kept; by how many fewer the error is estimated
+MODES, FEWER = 8, 3  # kept; by how many fewer the error is estimated
 SETTLED = 1e-11
-STEADY = 1e-6  # growth rate beside the vehicle's own frequency that is rounding
+STEADY = 1e-6  # growth rate beside the highest frequency kept that is rounding
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Floquet:
         Whether no motion grows in a period. Where nothing is damped a millionth counts as none, since rounding makes it
         of a double multiplier.
     error_estimate : float
-        Of the largest modulus: its change with two modes fewer, and by the last halving of the step.
+        Of the largest modulus: its change with three modes fewer, and by the last halving of the step.
     resonance : Resonance or None
         The one in whose tongue the pulsation lies to first order, or else the nearest.
     steady_growth_rate : float
@@ -139,8 +139,8 @@ def discretised(vehicle: Vehicle | Operators, modes: int) -> Operators:
 
 def steady_growth_rate(equations: PulsatingEquations) -> float:
     """Largest growth rate without pulsation, in 1/s, zero where it is rounding."""
-    growth = float(np.linalg.eigvals(equations.generator).real.max())
-    return growth if abs(growth) > STEADY * equations.scale else 0.0
+    growth = float(np.linalg.eigvals(equations.F).real.max())
+    return growth if abs(growth) > STEADY * equations.highest else 0.0
 
 
 def check(thrust: float, amplitudes: Array | list[float], frequencies: Array | list[float], modes: int) -> None:

@@ -8,48 +8,49 @@ import scipy.linalg
 
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
-from beal.stability.pencil import Array, ComplexArray, pencil
+from beal.stability.pencil import Array, Pencil, pencil, reduced
 
 APART = 1.01  # ratio of |mu| above which two modes may be separated; closer ones are kept or left out together
 COARSEST = 2.0  # highest frequency times the first step; the free motion is exact, its beat with the kicks is not
 FEWEST_STEPS = 8
 MOST_OSCILLATIONS = 20_000
+SPARE = 4  # modes beside those kept in which damped ones are sought
 HALVINGS = 9
+UNSHIFTED = 6  # steps in which the shift, small beside the roots left out, is taken from what follows
+TERMS = 6  # of the exponential of a kick
 ROUNDING = 1e-12  # of the multipliers
 POOR = 1e-6  # change that counts as settled once another halving does not make it smaller
 
 
 @dataclass(frozen=True)
 class PulsatingEquations:
-    """q'' + D q' + (A + f B - f^2 S) q = 0 with f = P1 cos(Omega t), the roots of A being the lowest ones at P0.
+    """z' = (F + f G + f^2 H) z with f = P1 cos(Omega t): the lowest modes at P0 and what a change of thrust does.
 
     Parameters
     ----------
-    A : ndarray, shape (k, k)
-        Stiffness at P0 in the invariant subspace of the lowest modes, in rad^2/s^2.
-    B : ndarray, shape (k, k)
-        Stiffness per thrust.
-    S : ndarray, shape (k, k)
-        What the higher modes, which follow f B q without inertia, give back.
-    D : ndarray, shape (k, k)
-        Damping, in 1/s.
-    mu : ndarray of complex, shape (k,)
-        Eigenvalues of A in ascending order of modulus.
+    F : ndarray, shape (2k, 2k)
+        Its roots are the lowest of the vehicle under P0. Undamped, z = (q, q'/scale).
+    G : ndarray, shape (2k, 2k)
+        Change per thrust.
+    H : ndarray, shape (2k, 2k)
+        What the higher modes, which follow f G z at once, give back.
+    A, B : ndarray, shape (k, k)
+        Stiffness at P0, in rad^2/s^2, and per thrust in the invariant subspace of the lowest modes without damping.
+    highest : float
+        The largest frequency kept, in rad/s.
     rigid : int
-        How many of the leading ones belong to rigid-body motions, which are kept where they drive the elastic ones.
+        How many of the lowest modes are of rigid-body motions, which are kept where they drive the elastic ones.
+    damped : bool
     """
 
+    F: Array
+    G: Array
+    H: Array
     A: Array
     B: Array
-    S: Array
-    D: Array
-    mu: ComplexArray
+    highest: float
     rigid: int
-
-    @property
-    def highest(self) -> float:
-        """The largest frequency kept, in rad/s."""
-        return math.sqrt(abs(self.mu[-1]))
+    damped: bool
 
     @property
     def neutral(self) -> float:
@@ -58,24 +59,14 @@ class PulsatingEquations:
         On the unit circle a double one, at every edge and crossing, is good to the root of the rounding only; damping
         takes them off it.
         """
-        return 1 + (ROUNDING if self.D.any() else math.sqrt(ROUNDING))
-
-    @property
-    def scale(self) -> float:
-        """By which rates are divided, in rad/s, so that they compare with displacements."""
-        return math.sqrt(max(abs(self.mu[0]), abs(self.mu[-1]) * 1e-6) ** 0.5 * self.highest)
-
-    @property
-    def generator(self) -> Array:
-        """F of z' = F z with z = (q, q'/scale) under P0 alone, shape (2k, 2k)."""
-        return np.block([[np.zeros_like(self.A), self.scale * np.eye(len(self.A))], [-self.A / self.scale, -self.D]])
+        return 1 + (ROUNDING if self.damped else math.sqrt(ROUNDING))
 
 
 def pulsating_equations(operators: Operators, thrust: float, modes: int) -> PulsatingEquations:
     """The lowest modes of the vehicle at a thrust, and what a change of thrust does to them.
 
     Rigid-body motions that drive no elastic coordinate are left out (theory, section 5). The modes above respond to the
-    changing thrust as if they had no inertia: their share of the deflection under f B q is static.
+    changing thrust as if they had no inertia.
 
     Parameters
     ----------
@@ -90,33 +81,77 @@ def pulsating_equations(operators: Operators, thrust: float, modes: int) -> Puls
     PulsatingEquations
     """
     full = pencil(operators)
-    shifted = full.stiffness(thrust) + full.shift * full.M
-    inverse = np.asarray(np.linalg.solve(shifted, full.M), dtype=np.float64)
-    inertia = np.linalg.eigvals(inverse).astype(complex)
-    mu = 1 / inertia[np.abs(inertia) > 0] - full.shift
-    mu = mu[np.argsort(np.abs(mu), kind="stable")]
-    keep = min(full.rigid + modes, len(mu))
-    while keep < len(mu) and abs(mu[keep]) < APART * abs(mu[keep - 1]):
+    A, B, S, square = _lowest(-full.stiffness(thrust), full.M, -full.K1, full.shift, full.rigid + modes)
+    highest, damped = math.sqrt(square), full.C is not None
+    if damped:
+        F, G, H, highest = _lowest_damped(reduced(full, modes + SPARE, modes), thrust, 2 * len(A), highest)
+    else:
+        scale, one, none = math.sqrt(math.sqrt(full.shift) * highest), np.eye(len(A)), np.zeros_like(A)
+        F = np.block([[none, scale * one], [A / scale, none]])
+        G, H = (np.block([[none, none], [change / scale, none]]) for change in (B, S))
+    return PulsatingEquations(F, G, H, -A, -B, highest, full.rigid, damped)
+
+
+def _lowest_damped(full: Pencil, thrust: float, count: int, highest: float) -> tuple[Array, Array, Array, float]:
+    """F, G, H and the largest modulus, all roots up to the highest frequency kept, as of overdamped modes too."""
+    M, C = full.M, np.asarray(full.C)
+    scale, one, none = math.sqrt(full.shift), np.eye(len(M)), np.zeros_like(M)
+    return _lowest(
+        np.block([[none, scale * one], [-full.stiffness(thrust) / scale, -C]]),
+        np.block([[one, none], [none, M]]),
+        np.block([[none, none], [-full.K1 / scale, none]]),
+        scale,
+        count,
+        highest,
+    )
+
+
+def _lowest(
+    N: Array, E: Array, N1: Array, shift: float, count: int, at_least: float = 0.0
+) -> tuple[Array, Array, Array, float]:
+    """E z' = (N + f N1) z in the lowest roots, those above following at once: z' = (N_ + f N1_ + f^2 N2_) z.
+
+    Parameters
+    ----------
+    N, E, N1 : ndarray, shape (n, n)
+    shift : float
+        Not a root.
+    count : int
+        Roots of smallest modulus to keep, or a few more where the next one is close by.
+    at_least : float
+        Modulus up to which all are kept.
+
+    Returns
+    -------
+    N, N1, N2 : ndarray, shape (k, k)
+    float
+        The largest modulus kept.
+    """
+    shifted = N - shift * E
+    inverse, transposed = (np.asarray(np.linalg.solve(side, E), dtype=np.float64) for side in (shifted, shifted.T))
+    images = np.linalg.eigvals(inverse).astype(complex)
+    moduli = np.sort(np.abs(shift + 1 / images[np.abs(images) > 0]))
+    keep = min(max(count, int(np.sum(moduli <= at_least))), len(moduli))
+    while keep < len(moduli) and moduli[keep] < APART * moduli[keep - 1]:
         keep += 1
-    limit = math.sqrt(abs(mu[keep - 1] * mu[keep])) if keep < len(mu) else math.inf
-    right = _invariant(inverse, full.shift, limit)
-    transposed = np.asarray(np.linalg.solve(shifted.T, full.M), dtype=np.float64)
-    left = _invariant(transposed, full.shift, limit)
-    left = np.asarray(np.linalg.solve(left.T @ full.M @ right, left.T), dtype=np.float64)
-    follow = np.linalg.solve(shifted, full.K1 @ right)
-    follow -= right @ (left @ full.M @ follow)
-    A = left @ full.stiffness(thrust) @ right
-    D = np.zeros_like(A) if full.C is None else left @ full.C @ right
-    return PulsatingEquations(A, left @ full.K1 @ right, left @ full.K1 @ follow, D, mu[:keep], full.rigid)
+    limit = math.sqrt(moduli[keep - 1] * moduli[keep]) if keep < len(moduli) else math.inf
+    right, left = (_invariant(image, shift, limit) for image in (inverse, transposed))
+    left = np.asarray(np.linalg.solve(left.T @ E @ right, left.T), dtype=np.float64)
+    first = np.linalg.solve(shifted, N1 @ right)
+    first -= right @ (left @ E @ first)
+    follow = first
+    for _ in range(UNSHIFTED):
+        follow = first - shift * inverse @ follow
+    return left @ N @ right, left @ N1 @ right, -left @ N1 @ follow, float(moduli[keep - 1])
 
 
 def _invariant(inverse: Array, shift: float, limit: float) -> Array:
-    """Columns that span the invariant subspace of (K + shift M)^-1 M with |mu| below a limit."""
+    """Columns that span the invariant subspace of (N - shift E)^-1 E that belongs to roots of modulus below a limit."""
     if math.isinf(limit):
         return np.eye(len(inverse))
 
     def is_low(re: float, im: float) -> bool:
-        return abs(1 - shift * complex(re, im)) < limit * math.hypot(re, im)
+        return abs(1 + shift * complex(re, im)) < limit * math.hypot(re, im)
 
     _, vectors, count = scipy.linalg.schur(inverse, sort=is_low)
     return np.asarray(vectors[:, :count])
@@ -144,7 +179,7 @@ def monodromy(
     Returns
     -------
     transition : ndarray, shape (b, 2k, 2k)
-        Of (q, q'/scale).
+        Of z.
     change : float
         By the last halving, beside the largest entry.
 
@@ -161,8 +196,7 @@ def monodromy(
             f"angular_frequency: a period holds {oscillations:.0f} oscillations of the highest mode kept, "
             f"at most {MOST_OSCILLATIONS} are followed; raise it or keep fewer modes"
         )
-    reversible = not equations.D.any()
-    turn = math.pi if reversible else 2 * math.pi  # Omega t followed
+    turn = 2 * math.pi if equations.damped else math.pi  # Omega t followed
     count = max(FEWEST_STEPS, math.ceil(turn * oscillations / COARSEST))
     before: list[Array] = []
     change = math.inf
@@ -173,7 +207,7 @@ def monodromy(
         moved = float(np.max(_largest(row[-1] - before[-1]) / _largest(row[-1]))) if before else math.inf
         exhausted = change <= moved <= POOR
         if exhausted or moved <= tolerance:
-            return (_mirrored(row[-1]) if reversible else row[-1]), moved
+            return (row[-1] if equations.damped else _mirrored(row[-1])), moved
         before, change = row, moved
     raise ConvergenceError(
         f"monodromy matrix at an angular frequency of {angular_frequency:.6g}: still changes by {change:.1e}; "
@@ -196,16 +230,21 @@ def _split(
 ) -> Array:
     """The product of ``count`` steps, shape (b, 2k, 2k)."""
     step = turn / (angular_frequency * count)
-    half = scipy.linalg.expm(equations.generator * (step / 2))
+    size = len(equations.F)
+    half = scipy.linalg.expm(equations.F * (step / 2))
     whole = half @ half
-    size = len(equations.A)
-    kick = np.vstack((equations.B, -equations.S)) * (step / equations.scale)
+    felt, pushed = (slice(None),) * 2 if equations.damped else (slice(size // 2), slice(size // 2, None))
+    terms = TERMS if equations.damped else 1  # displacements push rates alone
+    kick = step * np.vstack([change[pushed, felt] for change in (equations.G, equations.H)])
     state = np.tile(half, len(amplitudes))
-    repeated = np.repeat(amplitudes, 2 * size)
+    repeated = np.repeat(amplitudes, size)
     for cosine in np.cos((np.arange(count) + 0.5) * (turn / count)):
         f = cosine * repeated
-        force = kick @ state[:size]
-        state[size:] -= f * (force[:size] + f * force[size:])
+        moved = state[felt]
+        for term in range(1, terms + 1):
+            force = kick @ moved
+            moved = f * (force[: len(moved)] + f * force[len(moved) :]) / term
+            state[pushed] += moved
         state = whole @ state
     back = np.linalg.solve(half, state)
-    return np.asarray(back.reshape(2 * size, len(amplitudes), 2 * size).transpose(1, 0, 2))
+    return np.asarray(back.reshape(size, len(amplitudes), size).transpose(1, 0, 2))
