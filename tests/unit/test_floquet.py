@@ -26,6 +26,7 @@ BECK = catalog.beck()
         ({"angular_frequency": math.nan}, "angular_frequency: must be positive and finite, found nan"),
         ({"angular_frequency": 1e4}, "must not exceed that of the highest mode kept, .*; keep more than 8 modes"),
         ({"angular_frequency": 1e-9}, "a period holds .* oscillations of the highest mode kept"),
+        ({"thrust": 200.0, "angular_frequency": 0.05}, "at 0.05 a motion outgrows all numbers in a period; raise it"),
         ({"modes": 0}, "modes: must be at least 1, found 0"),
     ],
 )
@@ -63,6 +64,13 @@ def test_a_mean_thrust_beyond_the_critical_one_is_told_and_answered():
     assert found.steady_growth_rate == pytest.approx(growth, rel=1e-9)
     assert not found.stable
     assert found.growth_rate == pytest.approx(growth, rel=0.05)
+
+
+def test_a_motion_that_grows_by_many_powers_of_ten_keeps_its_rate():
+    found = beal.floquet(BECK, 40.0, 1e-6, 0.5)
+    growth = beal.spectrum(beal.discretise(BECK, order=24), 40.0, 2).growth_rate.max()
+    assert found.largest_modulus > 1e20
+    assert found.growth_rate == pytest.approx(growth, rel=1e-8)
 
 
 def test_rigid_body_motions_that_only_follow_are_left_out_and_counted():

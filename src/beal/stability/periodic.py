@@ -18,6 +18,7 @@ SPARE = 4  # modes beside those kept in which damped ones are sought
 HALVINGS = 9
 UNSHIFTED = 6  # steps in which the shift, small beside the roots left out, is taken from what follows
 TERMS = 6  # of the exponential of a kick
+STEEP = 1e3  # largest entry of half a period that is still mirrored: its inverse loses as many digits twice
 ROUNDING = 1e-12  # of the multipliers
 POOR = 1e-6  # change that counts as settled once another halving does not make it smaller
 
@@ -186,7 +187,7 @@ def monodromy(
     Raises
     ------
     ModelError
-        If a period holds too many oscillations.
+        If a period holds too many oscillations or too much growth.
     ConvergenceError
         If it does not settle.
     """
@@ -196,18 +197,34 @@ def monodromy(
             f"angular_frequency: a period holds {oscillations:.0f} oscillations of the highest mode kept, "
             f"at most {MOST_OSCILLATIONS} are followed; raise it or keep fewer modes"
         )
-    turn = 2 * math.pi if equations.damped else math.pi  # Omega t followed
-    count = max(FEWEST_STEPS, math.ceil(turn * oscillations / COARSEST))
+    if not equations.damped:
+        half, change = _settled(equations, amplitudes, angular_frequency, math.pi, tolerance)
+        if np.abs(half).max() <= STEEP:
+            return _mirrored(half), change
+    return _settled(equations, amplitudes, angular_frequency, 2 * math.pi, tolerance)
+
+
+def _settled(
+    equations: PulsatingEquations, amplitudes: Array, angular_frequency: float, turn: float, tolerance: float
+) -> tuple[Array, float]:
+    """State transition until Omega t = ``turn``, and its change by the last halving."""
+    count = max(FEWEST_STEPS, math.ceil(turn * equations.highest / (angular_frequency * COARSEST)))
     before: list[Array] = []
     change = math.inf
     for halving in range(HALVINGS):
-        row = [_split(equations, amplitudes, angular_frequency, turn, count << halving)]
+        with np.errstate(over="ignore", invalid="ignore"):
+            row = [_split(equations, amplitudes, angular_frequency, turn, count << halving)]
+        if not np.isfinite(row[0]).all():
+            raise ModelError(
+                f"angular_frequency: at {angular_frequency:g} a motion outgrows all numbers in a period; "
+                "raise it, or lower the thrust or the amplitude"
+            )
         for power, coarser in enumerate(before, 1):
             row.append(row[-1] + (row[-1] - coarser) / (4**power - 1))
         moved = float(np.max(_largest(row[-1] - before[-1]) / _largest(row[-1]))) if before else math.inf
         exhausted = change <= moved <= POOR
         if exhausted or moved <= tolerance:
-            return (row[-1] if equations.damped else _mirrored(row[-1])), moved
+            return row[-1], moved
         before, change = row, moved
     raise ConvergenceError(
         f"monodromy matrix at an angular frequency of {angular_frequency:.6g}: still changes by {change:.1e}; "
