@@ -17,7 +17,7 @@ MOST_OSCILLATIONS = 20_000
 SPARE = 4  # modes beside those kept in which damped ones are sought
 HALVINGS = 9
 UNSHIFTED = 6  # steps in which the shift, small beside the roots left out, is taken from what follows
-TERMS = 6  # of the exponential of a kick
+TERMS, NEGLIGIBLE = 6, 1e-15  # of the exponential of a kick
 STEEP = 1e3  # largest entry of half a period that is still mirrored: its inverse loses as many digits twice
 ROUNDING = 1e-12  # of the multipliers
 POOR = 1e-6  # change that counts as settled once another halving does not make it smaller
@@ -251,17 +251,39 @@ def _split(
     half = scipy.linalg.expm(equations.F * (step / 2))
     whole = half @ half
     felt, pushed = (slice(None),) * 2 if equations.damped else (slice(size // 2), slice(size // 2, None))
-    terms = TERMS if equations.damped else 1  # displacements push rates alone
-    kick = step * np.vstack([change[pushed, felt] for change in (equations.G, equations.H)])
+    powers = _kick(equations, step, float(amplitudes.max()))[:, pushed, felt]
+    stacked = powers.reshape(-1, powers.shape[-1])
     state = np.tile(half, len(amplitudes))
     repeated = np.repeat(amplitudes, size)
     for cosine in np.cos((np.arange(count) + 0.5) * (turn / count)):
         f = cosine * repeated
-        moved = state[felt]
-        for term in range(1, terms + 1):
-            force = kick @ moved
-            moved = f * (force[: len(moved)] + f * force[len(moved) :]) / term
-            state[pushed] += moved
+        first, *higher = (stacked @ state[felt]).reshape(len(powers), -1, len(f))
+        moved = 0.0
+        for change in reversed(higher):
+            moved = f * (change + moved)
+        state[pushed] += f * (first + moved)
         state = whole @ state
     back = np.linalg.solve(half, state)
     return np.asarray(back.reshape(size, len(amplitudes), size).transpose(1, 0, 2))
+
+
+def _kick(equations: PulsatingEquations, step: float, largest: float) -> Array:
+    """Coefficients of f, f^2, ... in exp(step (f G + f^2 H)) - 1, as many as matter, shape (powers, 2k, 2k).
+
+    Without damping they are the two of the exponent: displacements push rates, which do not push.
+    """
+    exponent = step * np.array([equations.G, equations.H])
+    if not equations.damped:
+        return exponent
+    none = np.zeros((2 * TERMS, *equations.F.shape))
+    term, total = none.copy(), none.copy()
+    term[:2] = total[:2] = exponent
+    for number in range(2, TERMS + 1):
+        following = none.copy()
+        for power, change in enumerate(exponent, 1):
+            following[power:] += change @ term[:-power] / number
+        term = following
+        total += term
+    size = np.abs(total).max(axis=(1, 2)) * largest ** np.arange(1.0, len(total) + 1)
+    matters = np.flatnonzero(size > NEGLIGIBLE)
+    return total[: max(2, matters.max(initial=0) + 1)]
