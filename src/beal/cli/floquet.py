@@ -23,7 +23,10 @@ GRID = "a number, or a grid as FROM:TO:POINTS with more than one point"
 
 def floquet(
     model: Model,
-    amplitude: Annotated[str, typer.Option("--amplitude", metavar="P1", help=f"{GRID}.", show_default=False)],
+    amplitude: Annotated[
+        str,
+        typer.Option("--amplitude", metavar="P1", help="A number, or a grid as FROM:TO:POINTS.", show_default=False),
+    ],
     angular_frequency: Annotated[
         str, typer.Option("--angular-frequency", metavar="W", help="The same.", show_default=False)
     ],
