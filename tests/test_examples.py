@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "control", "flight", "interop", "maps", "model")
-CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "pulsating")
+CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, PULSATING = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -84,11 +84,12 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "control", "flight", "interop", "maps", "model", "verification"]
+    assert sorted(PAGES) == sorted([*NAMES, "verification"])
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", CONTROL, re.MULTILINE)) == {"toml", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
+    assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
@@ -159,6 +160,18 @@ def test_the_maps_of_the_page_on_maps_are_as_shown(readme_folder):
     for block in blocks("console", MAPS):
         command, _, shown = block.partition("\n")
         assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], readme_folder).strip() == shown.strip()
+
+
+@pytest.mark.parametrize("block", blocks("console", PULSATING), ids=["point", "chart"])
+def test_the_commands_of_the_page_on_pulsating_thrust_print_what_is_shown(readme_folder, block):
+    command, _, shown = block.partition("\n")
+    assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], readme_folder) == shown
+
+
+def test_the_python_of_the_page_on_pulsating_thrust_prints_what_it_says(readme_folder):
+    (block,) = blocks("python", PULSATING)
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], readme_folder).strip() == expected
 
 
 @pytest.fixture

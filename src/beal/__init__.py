@@ -29,10 +29,13 @@ if _typing.TYPE_CHECKING:
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
+    from beal.stability.floquet import Floquet, floquet
+    from beal.stability.resonances import Resonance
     from beal.stability.spectrum import Spectrum, spectrum
     from beal.stability.vanishing import vanishing_damping_limit
     from beal.study.flight import Flight, FlightState, flight
     from beal.study.map import stability_map
+    from beal.study.pulsating import floquet_chart
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
     from beal.vehicle.control import Control, Filter, Gain
@@ -73,6 +76,7 @@ _HOMES = {
     "Filter": "beal.vehicle.control",
     "Flight": "beal.study.flight",
     "FlightState": "beal.study.flight",
+    "Floquet": "beal.stability.floquet",
     "Force": "beal.vehicle.parts",
     "Gain": "beal.vehicle.control",
     "Joint": "beal.vehicle.parts",
@@ -83,6 +87,7 @@ _HOMES = {
     "PointMass": "beal.vehicle.parts",
     "RefinedMap": "beal.study.refined",
     "Release": "beal.motion",
+    "Resonance": "beal.stability.resonances",
     "Response": "beal.motion",
     "Samples": "beal.motion",
     "Sensor": "beal.vehicle.parts",
@@ -104,6 +109,8 @@ _HOMES = {
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
     "flight": "beal.study.flight",
+    "floquet": "beal.stability.floquet",
+    "floquet_chart": "beal.study.pulsating",
     "growth_rate": "beal.motion",
     "load": "beal.interop.files",
     "loads": "beal.vehicle.file",
@@ -135,6 +142,7 @@ __all__ = [
     "Filter",
     "Flight",
     "FlightState",
+    "Floquet",
     "Force",
     "Gain",
     "Joint",
@@ -145,6 +153,7 @@ __all__ = [
     "PointMass",
     "RefinedMap",
     "Release",
+    "Resonance",
     "Response",
     "Samples",
     "Sensor",
@@ -166,6 +175,8 @@ __all__ = [
     "discretise",
     "dumps",
     "flight",
+    "floquet",
+    "floquet_chart",
     "growth_rate",
     "load",
     "loads",

@@ -11,6 +11,7 @@ from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
 from beal.cli.flight import flight
+from beal.cli.floquet import floquet
 from beal.cli.maps import map_study, reproduce
 from beal.cli.models import check, example
 from beal.cli.modes import modes
@@ -24,6 +25,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "curve": (curve, "beal curve tsto.toml --to 150 -o curve.csv"),
     "flight": (flight, "beal flight launcher.toml --figure flight.png"),
     "control": (control, "beal control launcher.toml --thrust 90 --json"),
+    "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),

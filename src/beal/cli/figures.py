@@ -11,6 +11,7 @@ from beal.errors import ModelError
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from xarray import Dataset
 
     from beal.control import ControlLocus
     from beal.discretisation.operators import Operators
@@ -164,6 +165,17 @@ def map_figure(out: str, refined: bool) -> "Figure":
     with xarray.open_zarr(out, chunks=None) as grid:
         chart = RefinedMap(grid, xarray.open_zarr(out, group=GROUP, chunks=None)) if refined else grid
         plot.stability_map(chart, figure.subplots())
+    return figure
+
+
+def floquet_figure(chart: "Dataset") -> "Figure":
+    """Growth under a pulsating thrust over its frequency and amplitude."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(1.3 * WIDE, 1.3 * HIGH), layout="constrained")
+    plot.floquet_chart(chart, figure.subplots())
     return figure
 
 

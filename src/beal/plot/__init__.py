@@ -6,6 +6,7 @@ from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
 from beal.plot.histories import response, trajectory
 from beal.plot.maps import stability_map
+from beal.plot.pulsating import floquet_chart
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 
@@ -13,6 +14,7 @@ __all__ = [
     "control_locus",
     "deflections",
     "flight",
+    "floquet_chart",
     "growth_rates",
     "mode_shapes",
     "response",
