@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "flight", "interop", "maps", "model")
-CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "flight", "interop", "maps", "model", "motion")
+CLUSTERS, FLIGHT, INTEROP, MAPS, MODEL, MOTION = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -84,11 +84,12 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model", "verification"]
+    assert sorted(PAGES) == ["clusters", "flight", "interop", "maps", "model", "motion", "verification"]
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
+    assert set(re.findall(r"^```(\w+)$", MOTION, re.MULTILINE)) == {"toml", "console", "python", "text"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 
@@ -185,6 +186,23 @@ def test_the_inline_timeline_of_the_page_on_flights_is_understood(flight_folder)
     model, inline = blocks("toml", FLIGHT)
     (flight_folder / "launcher.toml").write_text(model.partition("[timeline]")[0] + inline)
     assert "188.7" in run([*BEAL, "flight", "launcher.toml"], flight_folder)
+
+
+@pytest.fixture
+def motion_folder(tmp_path):
+    (tmp_path / "gust.toml").write_text(blocks("toml", MOTION)[0])
+    return tmp_path
+
+
+@pytest.mark.parametrize("block", blocks("console", MOTION))
+def test_the_commands_of_the_page_on_motion_print_what_is_shown(motion_folder, block):
+    command, _, shown = block.partition("\n")
+    assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], motion_folder).strip() == shown.strip()
+
+
+@pytest.mark.parametrize(("block", "shown"), list(zip(blocks("python", MOTION), blocks("text", MOTION), strict=True)))
+def test_the_python_of_the_page_on_motion_prints_what_is_shown(motion_folder, block, shown):
+    assert run([sys.executable, "-c", block], motion_folder).strip() == shown.strip()
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))

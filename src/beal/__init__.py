@@ -13,7 +13,16 @@ if _typing.TYPE_CHECKING:
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
     from beal.interop.files import load
-    from beal.motion import ModeShape, Release, Response, Samples, growth_rate, response
+    from beal.motion import (
+        ModeShape,
+        Release,
+        Response,
+        Samples,
+        amplitude_spectrum,
+        envelope,
+        growth_rate,
+        response,
+    )
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
@@ -74,6 +83,8 @@ _HOMES = {
     "ThrustCurve": "beal.stability.curve",
     "Timeline": "beal.vehicle.timeline",
     "Vehicle": "beal.vehicle.vehicle",
+    "amplitude_spectrum": "beal.motion",
+    "envelope": "beal.motion",
     "flight": "beal.study.flight",
     "growth_rate": "beal.motion",
     "catalog": "beal.vehicle.catalog",
@@ -123,11 +134,13 @@ __all__ = [
     "ThrustCurve",
     "Timeline",
     "Vehicle",
+    "amplitude_spectrum",
     "catalog",
     "critical_events",
     "critical_thrust",
     "discretise",
     "dumps",
+    "envelope",
     "flight",
     "growth_rate",
     "load",

@@ -115,6 +115,10 @@ def test_a_paper_formulation_is_refused_with_the_reason_where_it_does_not_apply(
         (("curve",), "Missing option '--to'"),
         (("response", "--duration", "0"), "duration: must be positive and finite, found 0"),
         (("response", "--duration", "1", "--method", "euler"), "method: must be one of newmark, exact, found 'euler'"),
+        (
+            ("response", "--duration", "1", "--initial", "mode:1:1", "--quantity", "jerk"),
+            "--quantity: must be one of displacement, rate, acceleration, slope, slope_rate, found 'jerk'",
+        ),
         (("response", "--duration", "1"), "initial: nothing moves the vehicle"),
         (("response", "--duration", "1", "--initial", "jump"), "expected mode:NUMBER:AMPLITUDE or release"),
         (("response", "--duration", "1", "--initial", "mode:first:1"), "with numbers, found 'mode:first:1'"),

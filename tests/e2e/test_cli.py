@@ -279,6 +279,30 @@ def test_both_methods_give_the_same_motion(result_of, tsto):
     assert newmark == pytest.approx(exact, abs=2e-3 * max(map(abs, exact)))
 
 
+def test_response_shows_the_rigid_and_the_elastic_part_apart(result_of, written):
+    gust = '\n[[force]]\nstation = 1.0\nsignal = {kind = "gust", amplitude = 0.1, duration = 0.2}\n'
+    model = written(example("tsto") + gust)
+    free = result_of("response", model, "--duration", 0.5, "--thrust", 20)["sensors"]["imu"]
+    assert set(free) == {
+        *("displacement", "rate", "acceleration", "slope", "slope_rate"),
+        *("rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope"),
+    }
+    bent = result_of("response", model, "--duration", 0.5, "--thrust", 20, "--elastic")["sensors"]["imu"]
+    assert bent["displacement"] == pytest.approx(free["elastic_displacement"], abs=1e-6 * max(free["displacement"]))
+    assert not any(bent["rigid_displacement"])
+    assert max(map(abs, free["rigid_displacement"])) > 5 * max(map(abs, bent["displacement"]))
+
+
+def test_response_writes_all_that_a_sensor_reads(beal_here, tsto, tmp_path):
+    beal_here("response", tsto, "--duration", 0.1, "--initial", "mode:1:0.01", "-o", "out.csv")
+    with (tmp_path / "out.csv").open() as file:
+        header = next(csv.reader(file))
+    assert header[:6] == [
+        "time",
+        *(f"imu_{q}" for q in ("displacement", "rate", "acceleration", "slope", "slope_rate")),
+    ]
+
+
 def test_response_above_the_critical_thrust_grows(beal, tsto):
     done = beal("response", tsto, "--duration", 1, "--thrust", 120, "--method", "exact", "-o", "histories.csv")
     assert "unstable, its motion grows as exp(13.09 t)" in done.stdout

@@ -4,15 +4,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.figures import named, new_figure, response_figure
+from beal.cli.figures import DRAWN, named, new_figure, response_figure
 from beal.cli.options import AsJson, Figure, Model, Table
 from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
-    from beal.motion import Initial, Response
+    from beal.motion import Initial, Quantity, Response
 
-HISTORIES = ("displacement", "rate", "slope")
 INITIAL = "expected mode:NUMBER:AMPLITUDE or release:DEFLECTION[:STATION]"
 
 
@@ -26,6 +25,14 @@ def response(
         str | None,
         typer.Option(help="Start: mode:NUMBER:AMPLITUDE, or release:DEFLECTION[:STATION]; else at rest."),
     ] = None,
+    elastic: Annotated[bool, typer.Option("--elastic", help="Leave the rigid-body motion out.")] = False,
+    quantity: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="Q",
+            help="What the figure shows: displacement, rate, acceleration, slope or slope_rate; again for more.",
+        ),
+    ] = None,
     output: Table = None,
     figure: Figure = None,
     as_json: AsJson = False,
@@ -34,19 +41,23 @@ def response(
     from beal.discretisation.build import discretise
     from beal.interop import results
     from beal.interop.files import load
+    from beal.motion import PARTS, QUANTITIES
     from beal.motion import response as motion_of
     from beal.stability.spectrum import spectrum
 
     vehicle = load(model)
     start = _initial(initial) if initial else None
+    shown = _quantities(quantity) if quantity else DRAWN
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         operators = discretise(vehicle)
-        found = motion_of(operators, duration, thrust, step=step, method=method, initial=start)  # type: ignore[arg-type]
+        options: dict[str, Any] = {"step": step, "method": method, "initial": start, "rigid_body": not elastic}
+        found = motion_of(operators, duration, thrust, **options)
         growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max())
         write(_columns(found), lambda: results.response(found))
-        draw(lambda: response_figure(found, vehicle.units == "nondimensional"))
+        draw(lambda: response_figure(found, vehicle.units == "nondimensional", shown))
     if as_json:
-        sensors = {name: {what: getattr(found, what)[n] for what in HISTORIES} for n, name in enumerate(found.sensors)}
+        whats = (*QUANTITIES, *PARTS)
+        sensors = {name: {what: getattr(found, what)[n] for what in whats} for n, name in enumerate(found.sensors)}
         emit(
             {
                 "time": found.time,
@@ -64,9 +75,10 @@ def response(
     state = "stable" if growth <= 0 else f"unstable, its motion grows as exp({growth:.4g} t)"
     print(f"P = {found.thrust:.9g}: {state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}")
     if vehicle.units == "SI":
-        print("in N, s, m, m/s and rad")
-    largest = [[name, *(abs(getattr(found, what)[n]).max().item() for what in HISTORIES)] for n, name in _named(found)]
-    show_table(["name", *(f"largest {what}" for what in HISTORIES)], largest)
+        print("in N, s, m and rad")
+    parts = ("displacement", "elastic_displacement", *QUANTITIES[1:]) if operators.rigid and not elastic else QUANTITIES
+    largest = [[name, *(abs(getattr(found, what)[n]).max().item() for what in parts)] for n, name in _named(found)]
+    show_table(["largest", *(what.replace("_", " ") for what in parts)], largest)
     if output:
         note(f"histories written to {output}")
 
@@ -86,12 +98,22 @@ def _initial(text: str) -> "Initial":
     raise ModelError(f"--initial: {INITIAL}, found {text!r}")
 
 
+def _quantities(names: "list[str]") -> "list[Quantity]":
+    from beal.motion import QUANTITIES
+
+    if unknown := set(names) - set(QUANTITIES):
+        raise ModelError(f"--quantity: must be one of {', '.join(QUANTITIES)}, found {min(unknown)!r}")
+    return [quantity for quantity in QUANTITIES if quantity in names]
+
+
 def _named(found: "Response") -> "list[tuple[int, str]]":
     return list(enumerate(found.sensors))
 
 
 def _columns(found: "Response") -> dict[str, Any]:
+    from beal.motion import PARTS, QUANTITIES
+
     columns: dict[str, Any] = {"time": found.time}
     for n, name in _named(found):
-        columns |= {f"{name}_{what}": getattr(found, what)[n] for what in HISTORIES}
+        columns |= {f"{name}_{what}": getattr(found, what)[n] for what in (*QUANTITIES, *PARTS)}
     return columns

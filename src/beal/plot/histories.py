@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from beal.motion import Response
+from beal.motion import Quantity, Response
 from beal.plot.style import BLUE, GREY, VERMILION, axes, style
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ def response(
     result: Response,
     ax: "Axes | None" = None,
     sensor: str | None = None,
-    quantity: Literal["displacement", "rate", "slope"] = "displacement",
+    quantity: Quantity = "displacement",
     nondimensional: bool = True,
     **line: Any,
 ) -> "Axes":
@@ -27,7 +27,7 @@ def response(
     ax : Axes, optional
     sensor : str, optional
         Name; by default the first.
-    quantity : {"displacement", "rate", "slope"}
+    quantity : {"displacement", "rate", "acceleration", "slope", "slope_rate"}
     nondimensional : bool
         Whether the labels are those of the non-dimensional form or carry SI units.
     **line
@@ -39,10 +39,10 @@ def response(
     """
     with style():
         ax = axes(ax)
-        row = result.index(sensor or result.sensors[0])
+        history = result.history(sensor or result.sensors[0], quantity)
         ax.axhline(0.0, color=GREY, linewidth=0.6)
         look: dict[str, Any] = {"color": BLUE, "linewidth": 1.0} | line
-        ax.plot(result.time, getattr(result, quantity)[row], **look)
+        ax.plot(result.time, history, **look)
         ax.set_xlabel(TIME if nondimensional else "time (s)")
         ax.set_ylabel(_label(quantity, nondimensional))
         ax.margins(x=0.0)
@@ -93,7 +93,15 @@ def _label(quantity: str, nondimensional: bool) -> str:
     dimensionless = {
         "displacement": "displacement $y/L$",
         "rate": r"rate $\mathrm{d}(y/L)/\mathrm{d}\bar t$",
+        "acceleration": r"acceleration $\mathrm{d}^2(y/L)/\mathrm{d}\bar t^2$",
         "slope": "slope $y'$ (rad)",
+        "slope_rate": r"slope rate $\mathrm{d}y'/\mathrm{d}\bar t$",
     }
-    si = {"displacement": "displacement (m)", "rate": "rate (m/s)", "slope": "slope (rad)"}
+    si = {
+        "displacement": "displacement (m)",
+        "rate": "rate (m/s)",
+        "acceleration": "acceleration (m/s²)",
+        "slope": "slope (rad)",
+        "slope_rate": "slope rate (rad/s)",
+    }
     return (dimensionless if nondimensional else si)[quantity]

@@ -10,27 +10,27 @@ from beal.vehicle.parts import (
     Force,
     Joint,
     PointMass,
-    Pulse,
     Sensor,
-    Sine,
     Stage,
-    Step,
     Support,
-    Table,
     Thrust,
 )
 from beal.vehicle.paths import value_at, with_values
+from beal.vehicle.signals import Chirp, Gust, Noise, Pulse, Sine, Step, Table
 from beal.vehicle.tanks import Tank
 from beal.vehicle.timeline import Timeline
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
     "AxialLoad",
+    "Chirp",
     "Damping",
     "DistributedThrust",
     "ElasticEnd",
     "Force",
+    "Gust",
     "Joint",
+    "Noise",
     "PointMass",
     "Pulse",
     "Scales",
