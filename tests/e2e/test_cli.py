@@ -293,6 +293,26 @@ def test_response_shows_the_rigid_and_the_elastic_part_apart(result_of, written)
     assert max(map(abs, free["rigid_displacement"])) > 5 * max(map(abs, bent["displacement"]))
 
 
+@pytest.mark.parametrize(
+    ("thrust", "ends"),
+    [("ramp:20:60:0.2", (20, 60)), ("pulsating:50:5:0.5", (55, 55)), ("burn.csv", (30, 10))],
+)
+def test_response_takes_a_thrust_that_varies(beal_here, result_of, written, tsto, thrust, ends):
+    written("time, thrust\n0, 30\n0.05, 70\n0.2, 10\n", "burn.csv")
+    arguments = ("response", tsto, "--duration", 0.2, "--thrust", thrust, "--initial", "mode:1:0.01")
+    found = result_of(*arguments)
+    assert (found["thrust_history"][0], found["thrust_history"][-1]) == pytest.approx(ends, rel=1e-3)
+    assert found["growth_rate"] is None
+    assert beal_here(*arguments).stdout.startswith("P from ")
+
+
+def test_a_thrust_with_a_gap_is_refused(beal_here, written, tsto):
+    written("time, thrust\n0, 30\n0.05,\n0.2, 10\n", "burn.csv")
+    done = beal_here("response", tsto, "--duration", 0.2, "--thrust", "burn.csv", "--initial", "mode:1:0.01")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "thrust: its table must be numbers, found [0.0, 0.05, 0.2] and [30.0, '', 10.0]" in done.stderr
+
+
 def test_response_writes_all_that_a_sensor_reads(beal_here, tsto, tmp_path):
     beal_here("response", tsto, "--duration", 0.1, "--initial", "mode:1:0.01", "-o", "out.csv")
     with (tmp_path / "out.csv").open() as file:

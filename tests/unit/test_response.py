@@ -396,6 +396,7 @@ def history(displacement, rate, time):
         coordinates=np.zeros((len(time), 0)),
         coordinate_rates=np.zeros((len(time), 0)),
         thrust=0.0,
+        thrust_history=0 * time,
         method="exact",
         step=time[1],
         mu=np.zeros(0, dtype=complex),

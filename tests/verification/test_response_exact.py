@@ -160,6 +160,7 @@ def test_growth_of_a_circulatory_pair_is_that_of_its_eigenvalue(coupling):
         coordinates=q,
         coordinate_rates=rate,
         thrust=0.0,
+        thrust_history=np.zeros(count + 1),
         method="exact",
         step=step,
         mu=np.linalg.eigvals(stiffness).astype(complex),

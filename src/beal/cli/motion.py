@@ -10,8 +10,9 @@ from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
-    from beal.motion import Initial, Quantity, Response
+    from beal.motion import Initial, Quantity, Response, ThrustHistory
 
+THRUST = "expected a number, ramp:FROM:TO:TIME, pulsating:MEAN:AMPLITUDE:ANGULAR_FREQUENCY or a CSV file"
 INITIAL = "expected mode:NUMBER:AMPLITUDE or release:DEFLECTION[:STATION]"
 
 
@@ -20,7 +21,14 @@ def response(
     duration: Annotated[float, typer.Option("--duration", metavar="T", help="Length of time.", show_default=False)],
     step: Annotated[float | None, typer.Option("--step", metavar="DT", help="Time step, else a fitting one.")] = None,
     method: Annotated[str, typer.Option("--method", help="newmark or exact.")] = "newmark",
-    thrust: Annotated[float | None, typer.Option("--thrust", metavar="P", help="Else thrust.nominal.")] = None,
+    thrust: Annotated[
+        str | None,
+        typer.Option(
+            metavar="P",
+            help="A number, ramp:FROM:TO:TIME, pulsating:MEAN:AMPLITUDE:ANGULAR_FREQUENCY, or a CSV file with the "
+            "columns time and thrust; else thrust.nominal.",
+        ),
+    ] = None,
     initial: Annotated[
         str | None,
         typer.Option(help="Start: mode:NUMBER:AMPLITUDE, or release:DEFLECTION[:STATION]; else at rest."),
@@ -37,7 +45,7 @@ def response(
     figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
-    """Motion at the sensors under a constant thrust and the transverse forces."""
+    """Motion at the sensors under the thrust and the transverse forces."""
     from beal.discretisation.build import discretise
     from beal.interop import results
     from beal.interop.files import load
@@ -47,12 +55,14 @@ def response(
 
     vehicle = load(model)
     start = _initial(initial) if initial else None
+    given = thrust_of(thrust, vehicle.units) if thrust else None
     shown = _quantities(quantity) if quantity else DRAWN
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         operators = discretise(vehicle)
         options: dict[str, Any] = {"step": step, "method": method, "initial": start, "rigid_body": not elastic}
-        found = motion_of(operators, duration, thrust, **options)
-        growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max())
+        found = motion_of(operators, duration, given, **options)
+        steady = given is None or isinstance(given, float)
+        growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max()) if steady else None
         write(_columns(found), lambda: results.response(found))
         draw(lambda: response_figure(found, vehicle.units == "nondimensional", shown))
     if as_json:
@@ -65,6 +75,7 @@ def response(
                 "method": found.method,
                 "step": found.step,
                 "thrust": found.thrust,
+                "thrust_history": found.thrust_history,
                 "growth_rate": growth,
                 "units": vehicle.units,
                 "file": str(output) if output else None,
@@ -72,8 +83,12 @@ def response(
             }
         )
         return
-    state = "stable" if growth <= 0 else f"unstable, its motion grows as exp({growth:.4g} t)"
-    print(f"P = {found.thrust:.9g}: {state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}")
+    if growth is None:
+        state = f"P from {found.thrust_history.min():.9g} to {found.thrust_history.max():.9g}"
+    else:
+        state = f"P = {found.thrust:.9g}: "
+        state += "stable" if growth <= 0 else f"unstable, its motion grows as exp({growth:.4g} t)"
+    print(f"{state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}")
     if vehicle.units == "SI":
         print("in N, s, m and rad")
     parts = ("displacement", "elastic_displacement", *QUANTITIES[1:]) if operators.rigid and not elastic else QUANTITIES
@@ -96,6 +111,32 @@ def _initial(text: str) -> "Initial":
     except ValueError:
         raise ModelError(f"--initial: {INITIAL} with numbers, found {text!r}") from None
     raise ModelError(f"--initial: {INITIAL}, found {text!r}")
+
+
+def thrust_of(text: str, units: str) -> "float | ThrustHistory":
+    """The thrust that an option gives."""
+    from beal.motion import PulsatingThrust, ThrustTable
+    from beal.vehicle.file import read_timeline
+
+    if text.lower().endswith(".csv"):
+        columns = read_timeline(text, units)
+        if set(columns) != {"time", "thrust"}:
+            raise ModelError(f"--thrust: takes the columns time and thrust, found {', '.join(columns)}", text)
+        return ThrustTable(columns["time"], columns["thrust"])
+    kind, *numbers = text.split(":")
+    try:
+        match kind, list(map(float, numbers)):
+            case "ramp", [first, last, duration]:
+                return ThrustTable([0.0, duration], [first, last])
+            case "pulsating", [mean, amplitude, angular_frequency]:
+                return PulsatingThrust(mean, amplitude, angular_frequency)
+            case number, []:
+                return float(number)
+    except ModelError:
+        raise
+    except ValueError:
+        raise ModelError(f"--thrust: {THRUST}, found {text!r}") from None
+    raise ModelError(f"--thrust: {THRUST}, found {text!r}")
 
 
 def _quantities(names: "list[str]") -> "list[Quantity]":

@@ -5,6 +5,7 @@ from beal.motion.initial import Initial, ModeShape, Release, Samples
 from beal.motion.solve import response
 from beal.motion.spectra import amplitude_spectrum, envelope
 from beal.motion.steps import AliasingWarning, CoarseStepWarning
+from beal.motion.thrusts import PulsatingThrust, ThrustHistory, ThrustTable
 
 __all__ = [
     "PARTS",
@@ -13,10 +14,13 @@ __all__ = [
     "CoarseStepWarning",
     "Initial",
     "ModeShape",
+    "PulsatingThrust",
     "Quantity",
     "Release",
     "Response",
     "Samples",
+    "ThrustHistory",
+    "ThrustTable",
     "amplitude_spectrum",
     "envelope",
     "growth_rate",

@@ -64,7 +64,7 @@ def exact(
     matrix = _generator(stiffness, damping, scale)
     breaks = [t for term, _ in terms for t in signals.breakpoints(term)]
     longest = min((signals.longest_interval(term) / step for term, _ in terms), default=np.inf)
-    starts, lengths, output = _intervals(breaks, step, count, longest)
+    starts, lengths, output = intervals(breaks, step, count, longest)
     middles = (starts + lengths / 2) * step  # where rounding has put no one on the wrong side of a breakpoint
     distinct, which = np.unique(lengths, return_inverse=True)
     transitions = [np.asarray(expm(matrix * (length * step))) for length in distinct]
@@ -94,7 +94,7 @@ def _gain(matrix: Array, carrier: Array, shape: Array, length: float) -> Array:
     return np.asarray(forward[: len(matrix), len(matrix) :] @ back)
 
 
-def _intervals(
+def intervals(
     breaks: Sequence[float], step: float, count: int, longest: float
 ) -> tuple[Array, Array, NDArray[np.intp]]:
     """Starts and lengths, in steps, of the intervals between output times and breakpoints, and which ends are output.

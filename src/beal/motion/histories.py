@@ -35,13 +35,15 @@ class Response:
         q and q' in the coordinates of the operators: ``operators.shape(x) @ coordinates.T`` is the deflection
         at x.
     thrust : float
+        In N; the middle of its range where it varies.
+    thrust_history : ndarray, shape (k,)
         In N.
     method : {"newmark", "exact"}
     step : float
         In s.
     mu : ndarray of complex
-        The eigenvalues omega^2 of the modes that were kept, without damping, rigid-body motions included, in
-        rad^2/s^2.
+        The eigenvalues omega^2 of the modes that were kept, at ``thrust`` without damping, rigid-body motions
+        included, in rad^2/s^2.
     """
 
     time: Array
@@ -56,6 +58,7 @@ class Response:
     coordinates: Array
     coordinate_rates: Array
     thrust: float
+    thrust_history: Array
     method: str
     step: float
     mu: NDArray[np.complex128]

@@ -9,14 +9,13 @@ from numpy.typing import NDArray
 from beal.discretisation import discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
-from beal.motion import signals
-from beal.motion.exact import exact
 from beal.motion.histories import Response
 from beal.motion.initial import Initial
-from beal.motion.newmark import check_parameters, newmark
+from beal.motion.integrate import Problem, by_newmark, without_error_of_the_step
+from beal.motion.newmark import check_parameters
 from beal.motion.reduction import ReducedEquations, reduce
 from beal.motion.steps import check_step, frequencies, step_count
-from beal.vehicle.signals import Signal
+from beal.motion.thrusts import PulsatingThrust, ThrustHistory, ThrustTable
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -27,7 +26,7 @@ Method = Literal["newmark", "exact"]
 def response(
     model: Vehicle | Operators,
     duration: float,
-    thrust: float | None = None,
+    thrust: float | ThrustHistory | None = None,
     *,
     step: float | None = None,
     method: Method = "newmark",
@@ -37,23 +36,25 @@ def response(
     beta: float = 0.25,
     gamma: float = 0.5,
 ) -> Response:
-    """Motion of a vehicle under a constant thrust and its transverse forces, read at its sensors.
+    """Motion of a vehicle under its thrust and its transverse forces, read at its sensors.
 
-    Solves M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest undamped modes of the loaded vehicle.
+    Solves M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest undamped modes of the loaded vehicle; where
+    the thrust varies, of the vehicle under the middle of its range.
 
     Parameters
     ----------
     model : Vehicle or Operators
     duration : float
         In s.
-    thrust : float, optional
+    thrust : float, PulsatingThrust or ThrustTable, optional
         P, in N; by default the vehicle's nominal thrust.
     step : float, optional
         In s; shortened such that the duration is a whole number of steps. By default a fortieth of the
         shortest period among the four lowest elastic modes and the forces, and no more than half of the
         shortest among all modes that are kept.
     method : {"newmark", "exact"}
-        ``exact`` has no error of the step, which then only spaces the output.
+        ``exact`` has no error of the step, which then only spaces the output: by the matrix exponential, or under a
+        varying thrust by collocation of eighth order to 1e-11 of the motion.
     initial : Initial, optional
         ``ModeShape``, ``Release`` or ``Samples``; by default at rest, which needs a force.
     modes : int
@@ -103,9 +104,10 @@ def response(
     _check_options(duration, step, method, modes)
     _check_content(vehicle, initial)
     check_parameters(beta, gamma)
-    thrust = _thrust(vehicle, thrust)
-    reduced = reduce(operators, thrust, modes, rigid_body)
-    found = frequencies(reduced, vehicle)
+    varying = thrust if isinstance(thrust, PulsatingThrust | ThrustTable) else None
+    middle = thrust.middle if isinstance(thrust, PulsatingThrust | ThrustTable) else _thrust(vehicle, thrust)
+    reduced = reduce(operators, middle, modes, rigid_body)
+    found = frequencies(reduced, vehicle, varying.highest_frequency if varying else 0.0)
     count = step_count(duration, step, found)
     step = duration / count
     check_step(step, found, (beta, gamma) if method == "newmark" else None)
@@ -113,35 +115,26 @@ def response(
     if initial is not None:
         q, rate = initial.coordinates(operators)
         start = reduced.W.T @ operators.M @ q, reduced.W.T @ operators.M @ rate
-    loads = [force.signal for force in vehicle.forces]
-    shapes = reduced.W.T @ operators.shape([force.station for force in vehicle.forces]).T
+    problem = Problem(
+        reduced,
+        shapes=reduced.W.T @ operators.shape([force.station for force in vehicle.forces]).T,
+        loads=[force.signal for force in vehicle.forces],
+        start=start,
+        B=reduced.W.T @ operators.K1 @ reduced.X,
+        thrust=varying,
+    )
     if method == "exact":
-        p, p_rate = exact(reduced.A, shapes, loads, start, step, count, reduced.D)
-        p_acceleration = _acceleration(reduced, shapes, loads, step, p, p_rate)
+        motion = without_error_of_the_step(problem, step, count)
     else:
-        load = np.array([signals.samples(signal, step, count + 1) for signal in loads]).reshape(-1, count + 1)
-        p, p_rate, p_acceleration = newmark(
-            np.eye(len(reduced.A)), reduced.A, (shapes @ load).T, start, step, beta, gamma, reduced.D
-        )
-    return _read(operators, reduced, (p, p_rate, p_acceleration), thrust, method, step)
-
-
-def _acceleration(
-    reduced: ReducedEquations, shapes: Array, loads: list[Signal], step: float, p: Array, p_rate: Array
-) -> Array:
-    """What the equations of motion say of p'', at a jump of a force that after it."""
-    time = step * np.arange(len(p))
-    acceleration = -p @ reduced.A.T
-    for shape, load in zip(shapes.T, loads, strict=True):
-        acceleration += np.outer(signals.value(load, time), shape)
-    return acceleration if reduced.D is None else acceleration - p_rate @ reduced.D.T
+        motion = by_newmark(problem, step, count, beta, gamma)
+    return _read(operators, reduced, motion, (middle, varying), method, step)
 
 
 def _read(
     operators: Operators,
     reduced: ReducedEquations,
     motion: tuple[Array, Array, Array],
-    thrust: float,
+    thrust: tuple[float, ThrustHistory | None],
     method: str,
     step: float,
 ) -> Response:
@@ -151,8 +144,10 @@ def _read(
     q, q_rate, q_acceleration = (p @ reduced.X.T for p in motion)
     deflection, slope = (operators.shape(stations, derivative) for derivative in (0, 1))
     rigid = slice(operators.rigid)
+    time = step * np.arange(len(q), dtype=float)
+    middle, varying = thrust
     return Response(
-        time=step * np.arange(len(q), dtype=float),
+        time=time,
         sensors=tuple(sensor.name for sensor in sensors),
         displacement=deflection @ q.T,
         rate=deflection @ q_rate.T,
@@ -163,7 +158,8 @@ def _read(
         rigid_slope=slope[:, rigid] @ q[:, rigid].T,
         coordinates=q,
         coordinate_rates=q_rate,
-        thrust=thrust,
+        thrust=middle,
+        thrust_history=np.full_like(time, middle) if varying is None else varying.at(time),
         method=method,
         step=step,
         mu=reduced.mu,

@@ -89,5 +89,5 @@ def amplitude_spectrum(response: Response, sensor: str, quantity: Quantity = "di
     history = detrend(history[:-1])  # a motion that fills the duration with whole periods then falls on bins
     window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(len(history)) / len(history))
     amplitude = 2 * abs(np.fft.rfft(window * history)) / window.sum()
-    frequency: Array = 2 * np.pi / (len(history) * response.step) * np.arange(len(amplitude))
-    return frequency, np.asarray(amplitude)
+    bins = np.arange(len(amplitude), dtype=np.float64)
+    return np.asarray(2 * np.pi / (len(history) * response.step) * bins), np.asarray(amplitude)

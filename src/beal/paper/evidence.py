@@ -188,7 +188,9 @@ def sampled(operators: Operators, duration: float, thrust: float, **options: Any
 def _drawn(moved: Response) -> Response:
     """The history at the steps that are drawn."""
     rows = {name: getattr(moved, name)[:, ::DRAWN] for name in (*QUANTITIES, "rigid_displacement", "rigid_slope")}
-    columns = {name: getattr(moved, name)[::DRAWN] for name in ("time", "coordinates", "coordinate_rates")}
+    columns = {
+        name: getattr(moved, name)[::DRAWN] for name in ("time", "thrust_history", "coordinates", "coordinate_rates")
+    }
     return replace(moved, **rows, **columns)
 
 
