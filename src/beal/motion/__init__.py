@@ -1,11 +1,12 @@
 """Operators and excitation to time histories: Newmark's method and the exact solution."""
 
 from beal.motion.histories import PARTS, QUANTITIES, Quantity, Response, growth_rate
-from beal.motion.initial import Initial, ModeShape, Release, Samples
+from beal.motion.initial import Initial, ModeShape, Release, Samples, State
 from beal.motion.solve import response
 from beal.motion.spectra import amplitude_spectrum, envelope
 from beal.motion.steps import AliasingWarning, CoarseStepWarning
 from beal.motion.thrusts import PulsatingThrust, ThrustHistory, ThrustTable
+from beal.motion.transient import TransientGrowth, transient_growth
 
 __all__ = [
     "PARTS",
@@ -19,10 +20,13 @@ __all__ = [
     "Release",
     "Response",
     "Samples",
+    "State",
     "ThrustHistory",
     "ThrustTable",
+    "TransientGrowth",
     "amplitude_spectrum",
     "envelope",
     "growth_rate",
     "response",
+    "transient_growth",
 ]

@@ -7,17 +7,20 @@ from beal.plot.histories import response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
+from beal.plot.transient import pseudospectrum, transient_growth
 
 __all__ = [
     "deflections",
     "flight",
     "growth_rates",
     "mode_shapes",
+    "pseudospectrum",
     "response",
     "root_locus",
     "stability_map",
     "style",
     "thrust_curve",
     "trajectory",
+    "transient_growth",
     "vehicle",
 ]
