@@ -14,6 +14,7 @@ if _typing.TYPE_CHECKING:
     from beal.errors import BealError, ConvergenceError, ModelError
     from beal.interop.files import load
     from beal.motion import (
+        AmplitudeMap,
         ModeShape,
         PulsatingThrust,
         Release,
@@ -22,6 +23,7 @@ if _typing.TYPE_CHECKING:
         State,
         ThrustTable,
         TransientGrowth,
+        amplitude_map,
         amplitude_spectrum,
         envelope,
         growth_rate,
@@ -59,6 +61,7 @@ if _typing.TYPE_CHECKING:
 __version__ = _version("beal")
 
 _HOMES = {
+    "AmplitudeMap": "beal.motion",
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
     "ConvergenceError": "beal.errors",
@@ -92,6 +95,7 @@ _HOMES = {
     "Timeline": "beal.vehicle.timeline",
     "TransientGrowth": "beal.motion",
     "Vehicle": "beal.vehicle.vehicle",
+    "amplitude_map": "beal.motion",
     "amplitude_spectrum": "beal.motion",
     "envelope": "beal.motion",
     "flight": "beal.study.flight",
@@ -115,6 +119,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "AmplitudeMap",
     "AxialLoad",
     "BealError",
     "ConvergenceError",
@@ -148,6 +153,7 @@ __all__ = [
     "Timeline",
     "TransientGrowth",
     "Vehicle",
+    "amplitude_map",
     "amplitude_spectrum",
     "catalog",
     "critical_events",

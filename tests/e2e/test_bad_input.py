@@ -108,6 +108,7 @@ def test_a_paper_formulation_is_refused_with_the_reason_where_it_does_not_apply(
         (("critical", "--max-thrust", "1e9"), "max_thrust: at most"),
         (("critical", "--modes", "6"), "modes: applies to corrected-ritz and as-printed only"),
         (("critical", "--modes", "0", "--formulation", "as-printed"), "order: must be at least 1, found 0"),
+        (("critical", "--growth", "1e4"), "thrust: must lie below the critical one, found 10000"),
         (("critical", "--colour"), "No such option: --colour"),
         (("curve", "--to", "-3"), "to: must be a positive thrust, found -3"),
         (("curve", "--to", "3", "--points", "1"), "points: must be at least 2, found 1"),

@@ -252,6 +252,17 @@ def test_curve_writes_the_same_numbers_as_csv(result_of, tsto, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["curve.csv", tsto]
 
 
+def test_critical_gives_the_transient_growth_below_it(beal_here, result_of, tsto):
+    found = result_of("critical", tsto, "--growth", 90)["transient_growth"]
+    assert (found["thrust"], found["growth"]) == (90, pytest.approx(21.1982, rel=1e-5))
+    assert found["lower_bound"] < found["growth"] < found["upper_bound"]
+    assert (
+        "under a thrust of 90 the energy of a motion may grow 21.2-fold"
+        in beal_here("critical", tsto, "--growth", 90).stdout
+    )
+    assert "transient_growth" not in result_of("critical", tsto)
+
+
 def test_response_gives_the_histories_of_each_sensor(result_of, tsto):
     found = result_of("response", tsto, "--duration", 0.1, "--step", 0.001, "--initial", "mode:1:0.01")
     imu = found["sensors"]["imu"]

@@ -7,12 +7,12 @@ from matplotlib.figure import Figure
 
 from beal import plot
 from beal.discretisation import discretise
-from beal.motion import ModeShape, transient_growth
+from beal.motion import ModeShape, amplitude_map, transient_growth
 from beal.motion import response as solve
 from beal.stability.critical import critical_thrust
 from beal.stability.curve import thrust_curve
 from beal.stability.spectrum import spectrum
-from beal.vehicle import catalog
+from beal.vehicle import Force, Sine, catalog
 
 
 @pytest.fixture
@@ -152,3 +152,13 @@ def test_pseudospectra_surround_the_two_lowest_roots(ax):
     distance = 1 / (12.3255726 * found.resolvent_norm(points[:, 0] + 1j * points[:, 1]))
     np.testing.assert_allclose(np.log10(distance), -0.75, atol=0.02)
     assert ax.get_xlabel() == "real part (1/s)"
+
+
+def test_an_amplitude_map_is_drawn_with_a_logarithmic_colour(ax):
+    push = Force(station=1.0, signal=Sine(kind="sine", amplitude=0.01, angular_frequency=2.0))
+    vehicle = catalog.tsto(0.6, 5000.0, 5000.0).model_copy(update={"forces": (push,)})
+    chart = amplitude_map(vehicle, 0.5, [0.0, 50.0, 100.0], [1.0, 2.0], modes=3)
+    plot.amplitude_map(chart, ax)
+    np.testing.assert_array_equal(ax.collections[0].get_array(), chart.amplitude.T)
+    assert ax.figure.axes[1].get_yscale() == "log"
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("thrust $P L^2/EI$", "multiple of the forces")

@@ -1,5 +1,6 @@
 """Operators and excitation to time histories: Newmark's method and the exact solution."""
 
+from beal.motion.amplitude import AmplitudeMap, amplitude_map
 from beal.motion.histories import PARTS, QUANTITIES, Quantity, Response, growth_rate
 from beal.motion.initial import Initial, ModeShape, Release, Samples, State
 from beal.motion.solve import response
@@ -12,6 +13,7 @@ __all__ = [
     "PARTS",
     "QUANTITIES",
     "AliasingWarning",
+    "AmplitudeMap",
     "CoarseStepWarning",
     "Initial",
     "ModeShape",
@@ -24,6 +26,7 @@ __all__ = [
     "ThrustHistory",
     "ThrustTable",
     "TransientGrowth",
+    "amplitude_map",
     "amplitude_spectrum",
     "envelope",
     "growth_rate",

@@ -3,13 +3,14 @@
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
-from beal.plot.histories import response, trajectory
+from beal.plot.histories import amplitude_map, response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 from beal.plot.transient import pseudospectrum, transient_growth
 
 __all__ = [
+    "amplitude_map",
     "deflections",
     "flight",
     "growth_rates",

@@ -2,7 +2,9 @@
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from beal.motion import Quantity, Response
+import numpy as np
+
+from beal.motion import AmplitudeMap, Quantity, Response
 from beal.plot.style import BLUE, GREY, VERMILION, axes, style
 
 if TYPE_CHECKING:
@@ -82,6 +84,30 @@ def trajectory(
         ax.set_xlabel(_label("displacement", nondimensional))
         ax.set_ylabel(_label("rate", nondimensional))
         _powers(ax, "both")
+        return ax
+
+
+def amplitude_map(result: AmplitudeMap, ax: "Axes | None" = None, nondimensional: bool = True) -> "Axes":
+    """Draw the largest motion at a sensor over thrust and force, its colour logarithmic.
+
+    Parameters
+    ----------
+    result : AmplitudeMap
+    ax : Axes, optional
+    nondimensional : bool
+
+    Returns
+    -------
+    Axes
+    """
+    with style():
+        ax = axes(ax)
+        size = np.ma.masked_invalid(result.amplitude.T)
+        mesh = ax.pcolormesh(result.thrust, result.factor, size, norm="log", cmap="viridis", rasterized=True)
+        bar = ax.figure.colorbar(mesh, ax=ax)
+        bar.set_label(f"largest {_label(result.quantity, nondimensional)} at {result.sensor}")
+        ax.set_xlabel("thrust $P L^2/EI$" if nondimensional else "thrust P (N)")
+        ax.set_ylabel("multiple of the forces")
         return ax
 
 
