@@ -144,6 +144,13 @@ def test_a_thrust_that_could_vary_and_does_not_is_a_constant_one(thrust, method)
         np.testing.assert_allclose(getattr(varying, name), expected, atol=1e-9 * abs(expected).max())
 
 
+@pytest.mark.parametrize("method", ["newmark", "exact"])
+def test_acceleration_is_the_derivative_of_the_rate_under_a_varying_thrust(method):
+    motion = response(launcher(), 0.3, PULSATING, step=2e-4, initial=Release(0.01), modes=3, method=method)
+    difference = np.gradient(motion.rate, motion.step, axis=1)[:, 1:-1]
+    np.testing.assert_allclose(motion.acceleration[:, 1:-1], difference, atol=1e-3 * abs(difference).max())
+
+
 def test_the_modes_of_the_middle_thrust_are_enough_for_a_wide_range_of_thrusts():
     """Eight modes of the vehicle under P = 50 against twelve, the thrust running from 0 to 100."""
     operators = discretise(launcher(forces=()))
