@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "pulsating")
-CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, PULSATING = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "pulsating")
+CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, PULSATING = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -91,6 +91,7 @@ def test_every_page_of_the_docs_is_executed():
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
+    assert set(re.findall(r"^```(\w+)$", MOTION, re.MULTILINE)) == {"toml", "console", "python", "text"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 
@@ -227,6 +228,23 @@ def test_the_largest_thrusts_of_the_page_on_the_control_loop_are_true():
 def test_the_python_of_the_page_on_the_control_loop_prints_what_it_says(control_folder, block):
     expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
     assert run([sys.executable, "-c", block], control_folder).strip() == expected
+
+
+@pytest.fixture
+def motion_folder(tmp_path):
+    (tmp_path / "gust.toml").write_text(blocks("toml", MOTION)[0])
+    return tmp_path
+
+
+@pytest.mark.parametrize("block", blocks("console", MOTION))
+def test_the_commands_of_the_page_on_motion_print_what_is_shown(motion_folder, block):
+    command, _, shown = block.partition("\n")
+    assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], motion_folder).strip() == shown.strip()
+
+
+@pytest.mark.parametrize(("block", "shown"), list(zip(blocks("python", MOTION), blocks("text", MOTION), strict=True)))
+def test_the_python_of_the_page_on_motion_prints_what_is_shown(motion_folder, block, shown):
+    assert run([sys.executable, "-c", block], motion_folder).strip() == shown.strip()
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))

@@ -25,7 +25,23 @@ if _typing.TYPE_CHECKING:
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
     from beal.interop.files import load
-    from beal.motion import ModeShape, Release, Response, Samples, growth_rate, response
+    from beal.motion import (
+        AmplitudeMap,
+        ModeShape,
+        PulsatingThrust,
+        Release,
+        Response,
+        Samples,
+        State,
+        ThrustTable,
+        TransientGrowth,
+        amplitude_map,
+        amplitude_spectrum,
+        envelope,
+        growth_rate,
+        response,
+        transient_growth,
+    )
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
@@ -61,6 +77,7 @@ if _typing.TYPE_CHECKING:
 __version__ = _version("beal")
 
 _HOMES = {
+    "AmplitudeMap": "beal.motion",
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
     "ClosedLoop": "beal.control",
@@ -85,6 +102,7 @@ _HOMES = {
     "ModelError": "beal.errors",
     "Operators": "beal.discretisation.operators",
     "PointMass": "beal.vehicle.parts",
+    "PulsatingThrust": "beal.motion",
     "RefinedMap": "beal.study.refined",
     "Release": "beal.motion",
     "Resonance": "beal.stability.resonances",
@@ -93,13 +111,18 @@ _HOMES = {
     "Sensor": "beal.vehicle.parts",
     "Spectrum": "beal.stability.spectrum",
     "Stage": "beal.vehicle.parts",
+    "State": "beal.motion",
     "StateSpace": "beal.control",
     "Support": "beal.vehicle.parts",
     "Tank": "beal.vehicle.tanks",
     "Thrust": "beal.vehicle.parts",
     "ThrustCurve": "beal.stability.curve",
+    "ThrustTable": "beal.motion",
     "Timeline": "beal.vehicle.timeline",
+    "TransientGrowth": "beal.motion",
     "Vehicle": "beal.vehicle.vehicle",
+    "amplitude_map": "beal.motion",
+    "amplitude_spectrum": "beal.motion",
     "catalog": "beal.vehicle.catalog",
     "closed_loop": "beal.control",
     "control_locus": "beal.control",
@@ -108,6 +131,7 @@ _HOMES = {
     "critical_thrust": "beal.stability.critical",
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
+    "envelope": "beal.motion",
     "flight": "beal.study.flight",
     "floquet": "beal.stability.floquet",
     "floquet_chart": "beal.study.pulsating",
@@ -122,11 +146,13 @@ _HOMES = {
     "stability_margins": "beal.control",
     "state_space": "beal.control",
     "thrust_curve": "beal.stability.curve",
+    "transient_growth": "beal.motion",
     "vanishing_damping_limit": "beal.stability.vanishing",
     "verify": "beal.verification.run",
 }
 
 __all__ = [
+    "AmplitudeMap",
     "AxialLoad",
     "BealError",
     "ClosedLoop",
@@ -151,6 +177,7 @@ __all__ = [
     "ModelError",
     "Operators",
     "PointMass",
+    "PulsatingThrust",
     "RefinedMap",
     "Release",
     "Resonance",
@@ -159,13 +186,18 @@ __all__ = [
     "Sensor",
     "Spectrum",
     "Stage",
+    "State",
     "StateSpace",
     "Support",
     "Tank",
     "Thrust",
     "ThrustCurve",
+    "ThrustTable",
     "Timeline",
+    "TransientGrowth",
     "Vehicle",
+    "amplitude_map",
+    "amplitude_spectrum",
     "catalog",
     "closed_loop",
     "control_locus",
@@ -174,6 +206,7 @@ __all__ = [
     "critical_thrust",
     "discretise",
     "dumps",
+    "envelope",
     "flight",
     "floquet",
     "floquet_chart",
@@ -188,6 +221,7 @@ __all__ = [
     "stability_margins",
     "state_space",
     "thrust_curve",
+    "transient_growth",
     "vanishing_damping_limit",
     "verify",
 ]

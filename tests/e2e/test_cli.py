@@ -253,6 +253,17 @@ def test_curve_writes_the_same_numbers_as_csv(result_of, tsto, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["curve.csv", tsto]
 
 
+def test_critical_gives_the_transient_growth_below_it(beal_here, result_of, tsto):
+    found = result_of("critical", tsto, "--growth", 90)["transient_growth"]
+    assert (found["thrust"], found["growth"]) == (90, pytest.approx(21.1982, rel=1e-5))
+    assert found["lower_bound"] < found["growth"] < found["upper_bound"]
+    assert (
+        "under a thrust of 90 the energy of a motion may grow 21.2-fold"
+        in beal_here("critical", tsto, "--growth", 90).stdout
+    )
+    assert "transient_growth" not in result_of("critical", tsto)
+
+
 def test_response_gives_the_histories_of_each_sensor(result_of, tsto):
     found = result_of("response", tsto, "--duration", 0.1, "--step", 0.001, "--initial", "mode:1:0.01")
     imu = found["sensors"]["imu"]
@@ -278,6 +289,50 @@ def test_both_methods_give_the_same_motion(result_of, tsto):
     )
     # Newmark's period error is (w h)^2/12, about 1e-4 for the highest mode that matters here (w = 100).
     assert newmark == pytest.approx(exact, abs=2e-3 * max(map(abs, exact)))
+
+
+def test_response_shows_the_rigid_and_the_elastic_part_apart(result_of, written):
+    gust = '\n[[force]]\nstation = 1.0\nsignal = {kind = "gust", amplitude = 0.1, duration = 0.2}\n'
+    model = written(example("tsto") + gust)
+    free = result_of("response", model, "--duration", 0.5, "--thrust", 20)["sensors"]["imu"]
+    assert set(free) == {
+        *("displacement", "rate", "acceleration", "slope", "slope_rate"),
+        *("rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope"),
+    }
+    bent = result_of("response", model, "--duration", 0.5, "--thrust", 20, "--elastic")["sensors"]["imu"]
+    assert bent["displacement"] == pytest.approx(free["elastic_displacement"], abs=1e-6 * max(free["displacement"]))
+    assert not any(bent["rigid_displacement"])
+    assert max(map(abs, free["rigid_displacement"])) > 5 * max(map(abs, bent["displacement"]))
+
+
+@pytest.mark.parametrize(
+    ("thrust", "ends"),
+    [("ramp:20:60:0.2", (20, 60)), ("pulsating:50:5:0.5", (55, 55)), ("burn.csv", (30, 10))],
+)
+def test_response_takes_a_thrust_that_varies(beal_here, result_of, written, tsto, thrust, ends):
+    written("time, thrust\n0, 30\n0.05, 70\n0.2, 10\n", "burn.csv")
+    arguments = ("response", tsto, "--duration", 0.2, "--thrust", thrust, "--initial", "mode:1:0.01")
+    found = result_of(*arguments)
+    assert (found["thrust_history"][0], found["thrust_history"][-1]) == pytest.approx(ends, rel=1e-3)
+    assert found["growth_rate"] is None
+    assert beal_here(*arguments).stdout.startswith("P from ")
+
+
+def test_a_thrust_with_a_gap_is_refused(beal_here, written, tsto):
+    written("time, thrust\n0, 30\n0.05,\n0.2, 10\n", "burn.csv")
+    done = beal_here("response", tsto, "--duration", 0.2, "--thrust", "burn.csv", "--initial", "mode:1:0.01")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "thrust: its table must be numbers, found [0.0, 0.05, 0.2] and [30.0, '', 10.0]" in done.stderr
+
+
+def test_response_writes_all_that_a_sensor_reads(beal_here, tsto, tmp_path):
+    beal_here("response", tsto, "--duration", 0.1, "--initial", "mode:1:0.01", "-o", "out.csv")
+    with (tmp_path / "out.csv").open() as file:
+        header = next(csv.reader(file))
+    assert header[:6] == [
+        "time",
+        *(f"imu_{q}" for q in ("displacement", "rate", "acceleration", "slope", "slope_rate")),
+    ]
 
 
 def test_response_above_the_critical_thrust_grows(beal, tsto):

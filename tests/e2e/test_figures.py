@@ -3,6 +3,7 @@
 import sys
 from importlib.resources import files
 
+import numpy as np
 import pytest
 
 from beal.cli.figures import curve_figure, modes_figure, response_figure, vehicle_figure
@@ -123,6 +124,14 @@ def test_every_sensor_has_a_column_of_histories():
     figure = response_figure(response(vehicle, 0.5, 50.0, initial=ModeShape(1, 1e-3)), nondimensional=True)
     assert [ax.get_title(loc="left") for ax in figure.axes[:2]] == ["imu", "rate gyro"]
     assert len(figure.axes) == 6
+
+
+def test_a_figure_shows_the_quantities_that_are_asked_for():
+    vehicle = catalog.tsto(0.6, 5000.0, 5000.0)
+    moved = response(vehicle, 0.1, 50.0, initial=ModeShape(1, 1e-3))
+    figure = response_figure(moved, True, ["acceleration", "slope_rate"])
+    assert [ax.get_ylabel().split()[0] for ax in figure.axes] == ["acceleration", "slope"]
+    np.testing.assert_array_equal(figure.axes[0].lines[-1].get_ydata(), moved.acceleration[0])
 
 
 def test_drawings_have_the_height_that_they_need():

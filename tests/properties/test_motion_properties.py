@@ -68,7 +68,7 @@ def unbalanced(operators: Operators, thrust: float, start: Samples, duration: fl
     return float(np.abs((energy[2::2] - energy[0]) / 2 - work).max() / energy.max())
 
 
-@pytest.mark.filterwarnings("ignore::beal.motion.solve.CoarseStepWarning")
+@pytest.mark.filterwarnings("ignore::beal.motion.steps.CoarseStepWarning")
 @pytest.mark.parametrize(("method", "beta", "order"), [("newmark", 0.25, 2), ("newmark", 1 / 6, 2), ("exact", 0.25, 4)])
 @FEW
 @given(SEEDS)

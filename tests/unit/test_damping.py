@@ -213,6 +213,7 @@ def test_a_map_may_go_from_no_damping_to_some():
     assert chart["critical_thrust"].values == pytest.approx([20.05095, 10.93912], rel=1e-6)
 
 
+@pytest.mark.filterwarnings("ignore::beal.motion.steps.AliasingWarning")
 def test_work_of_thrust_damping_and_force_is_the_change_of_energy_in_every_step():
     """With constant mean acceleration, whatever the step: midpoint work is exact for it."""
     force = Force(station=1.0, signal=Sine(kind="sine", amplitude=0.3, angular_frequency=4.0))
@@ -243,6 +244,7 @@ def test_newmark_converges_to_the_exact_response_of_a_damped_vehicle():
     assert [math.log2(a / b) for a, b in zip(errors, errors[1:], strict=False)] == pytest.approx([2, 2], abs=0.1)
 
 
+@pytest.mark.filterwarnings("ignore::beal.motion.steps.AliasingWarning")
 def test_a_damped_response_decays_as_the_spectrum_says():
     vehicle = column(internal=0.01, sensors=(Sensor(name="tip", station=1.0),))
     found = spectrum(discretise(vehicle), 5.0, 1)

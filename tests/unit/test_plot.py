@@ -7,12 +7,12 @@ from matplotlib.figure import Figure
 
 from beal import plot
 from beal.discretisation import discretise
-from beal.motion import ModeShape
+from beal.motion import ModeShape, amplitude_map, transient_growth
 from beal.motion import response as solve
 from beal.stability.critical import critical_thrust
 from beal.stability.curve import thrust_curve
 from beal.stability.spectrum import spectrum
-from beal.vehicle import catalog
+from beal.vehicle import Force, Sine, catalog
 
 
 @pytest.fixture
@@ -128,3 +128,37 @@ def test_a_trajectory_marks_where_it_starts(ax):
     plot.trajectory(moved, ax)
     start = next(line for line in ax.lines if line.get_label() == "start")
     assert (start.get_xdata()[0], start.get_ydata()[0]) == (moved.displacement[0, 0], moved.rate[0, 0])
+
+
+def test_transient_growth_is_drawn_between_its_bounds(ax):
+    found = transient_growth(catalog.tsto(0.6, 5000.0, 5000.0), 90.0)
+    plot.transient_growth(found, ax)
+    curve, largest, *bounds = ax.lines
+    np.testing.assert_array_equal(curve.get_ydata(), found.history)
+    assert (largest.get_xdata()[0], largest.get_ydata()[0]) == (found.instant, found.growth)
+    assert [line.get_ydata()[0] for line in bounds] == [found.lower_bound, found.upper_bound]
+    assert ax.get_yscale() == "log"
+
+
+def test_pseudospectra_surround_the_two_lowest_roots(ax):
+    found = transient_growth(catalog.tsto(0.6, 5000.0, 5000.0), 90.0)
+    plot.pseudospectrum(found, ax, nondimensional=False)
+    roots = ax.lines[0].get_ydata()
+    assert sorted(roots) == pytest.approx([12.3255726, 37.3518948])
+    (contours,) = (item for item in ax.collections if hasattr(item, "levels"))
+    reached = {level: path.vertices for level, path in zip(contours.levels, contours.get_paths(), strict=True)}
+    points = reached[-0.75]
+    assert len(points)
+    distance = 1 / (12.3255726 * found.resolvent_norm(points[:, 0] + 1j * points[:, 1]))
+    np.testing.assert_allclose(np.log10(distance), -0.75, atol=0.02)
+    assert ax.get_xlabel() == "real part (1/s)"
+
+
+def test_an_amplitude_map_is_drawn_with_a_logarithmic_colour(ax):
+    push = Force(station=1.0, signal=Sine(kind="sine", amplitude=0.01, angular_frequency=2.0))
+    vehicle = catalog.tsto(0.6, 5000.0, 5000.0).model_copy(update={"forces": (push,)})
+    chart = amplitude_map(vehicle, 0.5, [0.0, 50.0, 100.0], [1.0, 2.0], modes=3)
+    plot.amplitude_map(chart, ax)
+    np.testing.assert_array_equal(ax.collections[0].get_array(), chart.amplitude.T)
+    assert ax.figure.axes[1].get_yscale() == "log"
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("thrust $P L^2/EI$", "multiple of the forces")

@@ -1,22 +1,53 @@
 """What a response refuses, how a motion starts, and the pieces that it is made of."""
 
 import math
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from beal.discretisation import discretise
 from beal.errors import ConvergenceError, ModelError
-from beal.motion import CoarseStepWarning, ModeShape, Release, Response, Samples, growth_rate, response, signals
+from beal.motion import (
+    AliasingWarning,
+    CoarseStepWarning,
+    ModeShape,
+    Release,
+    Response,
+    Samples,
+    growth_rate,
+    response,
+    signals,
+)
 from beal.motion.histories import turning_points
 from beal.motion.newmark import largest_step, newmark
 from beal.motion.reduction import reduce
-from beal.vehicle import Force, Joint, Pulse, Sensor, Sine, Stage, Step, Support, Table, Thrust, Vehicle, catalog
+from beal.vehicle import (
+    Chirp,
+    Force,
+    Gust,
+    Joint,
+    Noise,
+    Pulse,
+    Sensor,
+    Sine,
+    Stage,
+    Step,
+    Support,
+    Table,
+    Thrust,
+    Vehicle,
+    catalog,
+)
 
 IMU = Sensor(name="imu", station=0.12)
 SINE = Sine(kind="sine", amplitude=2.0, angular_frequency=3.0, phase=0.5)
 STEP = Step(kind="step", amplitude=2.0, start=1.0)
 PULSE = Pulse(kind="pulse", amplitude=2.0, start=1.0, duration=0.5)
+GUST = Gust(kind="gust", amplitude=3.0, start=1.0, duration=1.0)
+CHIRP = Chirp(kind="chirp", amplitude=2.0, first=3.0, last=11.0, duration=2.0, phase=0.3)
+NOISE = Noise(kind="noise", angular_frequency=[2.0, 10.0, 30.0], density=[0.0, 2.0, 0.0], seed=7)
 TABLE = Table(kind="table", time=(1.0, 2.0, 4.0), value=(5.0, 7.0, -1.0))
 
 
@@ -43,21 +74,56 @@ def test_signal_has_its_value(signal, time, expected):
 
 
 @pytest.mark.parametrize(
-    ("signal", "expected"), [(SINE, ()), (STEP, (1.0,)), (PULSE, (1.0, 1.5)), (TABLE, (1.0, 2.0, 4.0))]
+    ("signal", "expected"),
+    [
+        (SINE, ()),
+        (STEP, (1.0,)),
+        (PULSE, (1.0, 1.5)),
+        (GUST, (1.0, 2.0)),
+        (CHIRP, (2.0,)),
+        (NOISE, ()),
+        (TABLE, (1.0, 2.0, 4.0)),
+    ],
 )
 def test_signal_breaks_where_it_or_its_rate_jumps(signal, expected):
     assert signals.breakpoints(signal) == expected
 
 
-@pytest.mark.parametrize("signal", [SINE, STEP, PULSE, TABLE])
-def test_state_at_the_start_of_an_interval_carries_the_signal_over_it(signal):
-    """F(t) = F cos(w t) + F' sin(w t)/w, without a jump in the interval; also where it starts a rounding too early."""
-    start, length, w = np.array([1.0 - 1e-15, 2.0]), np.array([0.4, 1.9]), signals.angular_frequency(signal)
-    force, rate = signals.states(signal, start, length)
-    for share in (0.1, 0.9):
-        t = share * length
-        carried = force * np.cos(w * t) + rate * t * np.sinc(w * t / np.pi)
-        np.testing.assert_allclose(carried, signals.value(signal, start + t), atol=1e-13)
+@pytest.mark.parametrize("signal", [SINE, STEP, PULSE, GUST, CHIRP, TABLE])
+@pytest.mark.parametrize("middle", [1.2, 1.75, 3.1])
+def test_the_system_of_a_signal_carries_it_forth_and_back(signal, middle):
+    half = min(0.2, signals.longest_interval(signal) / 2)
+    for elapsed in (-half, half / 3, half):
+        carried = expm(signals.generator(signal) * elapsed) @ signals.state(signal, middle)
+        assert carried[0] == pytest.approx(float(signals.value(signal, middle + elapsed)), abs=1e-13)
+
+
+@pytest.mark.parametrize("signal", [GUST, CHIRP])
+def test_a_gust_and_a_chirp_are_what_their_formulas_say(signal):
+    time = np.array([0.9, 1.3, 1.7, 2.6])
+    gust = 1.5 * (1 - np.cos(2 * math.pi * (time - 1.0))) * (time > 1) * (time < 2)
+    angle = np.where(time < 2.0, 3 * time + 8 * time**2 / 4, 3 * 2 + 8 + 11 * (time - 2)) + 0.3  # 3 to 11 rad/s in 2 s
+    np.testing.assert_allclose(signals.value(signal, time), gust if signal is GUST else 2 * np.sin(angle), atol=1e-14)
+
+
+def test_noise_has_the_power_of_its_spectrum_band_by_band():
+    """Variance of the sines up to w: the integral of the density, within the power of one line."""
+    assert len({term.amplitude for term in signals.terms(NOISE)}) > 100
+    frequencies = np.array([term.angular_frequency for term in signals.terms(NOISE)])
+    power = np.array([term.amplitude**2 / 2 for term in signals.terms(NOISE)])
+    for w, expected in ((2.0, 0.0), (6.0, 2.0), (10.0, 8.0), (30.0, 8.0 + 20.0)):
+        assert power[frequencies <= w].sum() == pytest.approx(expected, rel=1e-12)
+    assert power[frequencies <= 20.0].sum() == pytest.approx(8 + 15, abs=1.1 * power.max())
+
+
+def test_noise_is_the_same_for_its_seed_and_has_its_variance_over_time():
+    time = np.linspace(0.0, 2000.0, 200001)
+    other = NOISE.model_copy(update={"seed": 8})
+    np.testing.assert_array_equal(signals.value(NOISE, time[:9]), signals.value(NOISE, time[:9]))
+    assert abs(signals.value(NOISE, time[:9]) - signals.value(other, time[:9])).max() > 0.1
+    force = signals.value(NOISE, time)
+    assert np.var(force) == pytest.approx(28.0, rel=0.03)
+    assert np.mean(force**4) == pytest.approx(3 * np.var(force) ** 2, rel=0.1)  # as of a Gaussian
 
 
 @pytest.mark.parametrize("start", [0.0, 0.03, 0.1, 0.314159, 0.95])
@@ -143,10 +209,28 @@ def test_the_nominal_thrust_is_the_default():
     assert response(beam(), duration=0.1, initial=Release(0.01)).thrust == 50.0
 
 
-def test_a_coarse_newmark_step_warns_and_an_exact_one_does_not():
+def test_a_coarse_newmark_step_warns():
     with pytest.warns(CoarseStepWarning, match="longer than a tenth of the shortest period of interest"):
         response(beam(), duration=1.0, step=0.02, initial=Release(0.01))
-    response(beam(), duration=1.0, step=0.02, initial=Release(0.01), method="exact")
+
+
+@pytest.mark.parametrize("method", ["newmark", "exact"])
+def test_an_aliasing_step_warns_with_the_highest_frequency_kept(method):
+    highest = math.sqrt(response(beam(), duration=0.1, initial=Release(0.01)).mu[-1].real)
+    message = (
+        f"aliased: the highest frequency kept is {highest:.4g} rad/s, .*shorten it to {math.pi / highest:.3g} or keep"
+    )
+    for step, warns in ((1.02 * math.pi / highest, True), (0.98 * math.pi / highest, False)):
+        with pytest.warns(AliasingWarning, match=message) if warns else nullcontext():
+            response(beam(), duration=100 * step, step=step, initial=Release(0.01), method=method)
+
+
+@pytest.mark.parametrize("modes", [4, 12, 20])
+def test_the_default_step_follows_the_highest_frequency_kept(modes):
+    """And is no longer than it takes to follow the four lowest modes, nor shorter than either asks for."""
+    motion = response(beam(), duration=0.5, initial=Release(0.01), modes=modes)
+    highest, fourth = math.sqrt(motion.mu[-1].real), math.sqrt(motion.mu[5].real)
+    assert motion.step == pytest.approx(min(math.pi / highest, 2 * math.pi / fourth / 40), rel=0.02)
 
 
 def test_a_fast_sine_force_shortens_the_default_step():
@@ -155,37 +239,44 @@ def test_a_fast_sine_force_shortens_the_default_step():
 
 
 def test_the_step_divides_the_duration():
-    motion = response(beam(), duration=1.0, step=0.003, initial=Release(0.01), method="exact")
+    motion = response(beam(), duration=1.0, step=0.003, modes=5, initial=Release(0.01), method="exact")
     assert (len(motion.time), motion.step) == (335, pytest.approx(1 / 334))
     assert motion.time[-1] == pytest.approx(1.0, rel=1e-14)
     rounded_up = 0.1 + 0.2
-    assert len(response(beam(), duration=rounded_up, step=0.1, initial=Release(0.01), method="exact").time) == 4
+    assert (
+        len(response(beam(), duration=rounded_up, step=0.1, modes=1, initial=Release(0.01), method="exact").time) == 4
+    )
 
 
 def test_a_motion_beyond_all_numbers_is_a_failure_of_the_numerics():
     with pytest.raises(
         ConvergenceError, match=r"the motion outgrew the range of numbers in step .* shorten the duration"
     ):
-        response(beam(), duration=200.0, thrust=160.0, step=0.1, initial=Release(0.01), method="exact")
+        response(beam(), duration=200.0, thrust=160.0, step=0.02, modes=2, initial=Release(0.01), method="exact")
 
 
 def test_a_response_is_linear_in_the_forces_and_adds_them():
     both = (Force(station=1.0, signal=SINE), Force(station=1.0, signal=TABLE))
-    options = {"duration": 5.0, "method": "exact", "step": 0.05}
+    options = {"duration": 5.0, "method": "exact", "step": 0.01, "modes": 3}
     together = response(beam(forces=both), **options).displacement
     apart = sum(response(beam(forces=(force,)), **options).displacement for force in both)
     np.testing.assert_allclose(together, apart, atol=1e-9 * abs(apart).max())
 
 
-def test_sensors_read_displacement_rate_and_slope():
+@pytest.mark.parametrize("method", ["newmark", "exact"])
+def test_sensors_read_displacement_slope_and_their_derivatives(method):
     sensors = (IMU, Sensor(name="tail", station=1.0))
-    motion = response(beam(sensors=sensors), duration=0.5, step=1e-3, initial=ModeShape(1, 0.01), method="exact")
+    motion = response(
+        beam(sensors=sensors), duration=0.5, step=5e-4, modes=5, initial=ModeShape(1, 0.01), method=method
+    )
     operators = discretise(beam(sensors=sensors))
     assert motion.sensors == ("imu", "tail")
     np.testing.assert_allclose(motion.displacement, operators.shape([0.12, 1.0]) @ motion.coordinates.T)
     np.testing.assert_allclose(motion.slope, operators.shape([0.12, 1.0], 1) @ motion.coordinates.T)
-    difference = np.gradient(motion.displacement, motion.step, axis=1)[:, 1:-1]
-    np.testing.assert_allclose(motion.rate[:, 1:-1], difference, atol=1e-3 * abs(motion.rate).max())
+    pairs = [(motion.displacement, motion.rate), (motion.rate, motion.acceleration), (motion.slope, motion.slope_rate)]
+    for quantity, derivative in pairs:
+        difference = np.gradient(quantity, motion.step, axis=1)[:, 1:-1]
+        np.testing.assert_allclose(derivative[:, 1:-1], difference, atol=1e-3 * abs(derivative).max())
     displacement, rate = motion.trajectory("tail")
     np.testing.assert_array_equal(displacement, motion.displacement[1])
     np.testing.assert_array_equal(rate, motion.rate[1])
@@ -297,10 +388,15 @@ def history(displacement, rate, time):
         sensors=("imu",),
         displacement=displacement[None],
         rate=rate[None],
+        acceleration=0 * rate[None],
         slope=0 * rate[None],
+        slope_rate=0 * rate[None],
+        rigid_displacement=0 * rate[None],
+        rigid_slope=0 * rate[None],
         coordinates=np.zeros((len(time), 0)),
         coordinate_rates=np.zeros((len(time), 0)),
         thrust=0.0,
+        thrust_history=0 * time,
         method="exact",
         step=time[1],
         mu=np.zeros(0, dtype=complex),

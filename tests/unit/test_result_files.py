@@ -28,7 +28,7 @@ def shapes(operators):
 
 @pytest.fixture(scope="module")
 def histories(operators):
-    return results.response(motion_of(operators, 0.3, 10.0, step=0.003, initial=ModeShape(1, 0.01)))
+    return results.response(motion_of(operators, 0.3, 10.0, step=0.003, modes=8, initial=ModeShape(1, 0.01)))
 
 
 def test_mode_shapes_are_scaled_and_kink_at_the_joint(shapes):
@@ -99,7 +99,8 @@ def test_complex_shapes_are_written_as_such(tmp_path, fluttering):
 def test_the_universal_file_holds_histories(tmp_path, histories):
     write_result(histories, tmp_path / "result.uff", ".uff")
     sets = data_sets(tmp_path / "result.uff")
-    assert [lines[1].strip() for lines in sets] == ["imu displacement", "imu rate", "imu slope"]
+    names = ["displacement", "rate", "acceleration", "slope", "slope_rate"]
+    assert [lines[1].strip() for lines in sets] == [f"imu {name}" for name in names]
     assert fields(sets[0][7][:30], 10) == [4, histories.sizes["time"], 1]
     assert fields(sets[0][7][30:], 13) == pytest.approx([0.0, 0.003, 0.0])
     values = [value for line in sets[1][12:] for value in fields(line, 20)]

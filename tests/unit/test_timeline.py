@@ -118,7 +118,15 @@ def test_a_table_is_read_from_where_the_model_file_is(tmp_path):
 @pytest.mark.parametrize(
     ("table", "expected"),
     [
-        ("", [("timeline.file, ascent.csv", "needs a row of names, time, thrust and so on, and a row for each time")]),
+        (
+            "",
+            [
+                (
+                    "timeline.file, ascent.csv",
+                    "needs a row of names (time, thrust, fill.TANK or stages), and a row for each time",
+                )
+            ],
+        ),
         ("time\n0\n", [("timeline.thrust", "is required and missing")]),
         ("time,thrust\n", [("timeline.time", "must hold at least one time, found none")]),
         (
@@ -127,7 +135,7 @@ def test_a_table_is_read_from_where_the_model_file_is(tmp_path):
                 ("timeline.file, ascent.csv, row 3", "has 5 cells, more than the 4 names"),
                 (
                     "timeline.file, ascent.csv, row 1",
-                    "'mach' is no column of a timeline: time, thrust, fill.TANK or stages",
+                    "'mach' is no column here: time, thrust, fill.TANK or stages",
                 ),
                 ("timeline.file, ascent.csv, row 1", "'time' comes twice"),
             ],

@@ -15,7 +15,8 @@ from beal.stability import large
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.limit import default_limit
 from beal.stability.modes import converged_modes
-from beal.vehicle.parts import Force, Joint, PointMass, Stage, Step, Support, Thrust
+from beal.vehicle.parts import Force, Joint, PointMass, Stage, Support, Thrust
+from beal.vehicle.signals import Step
 from beal.vehicle.vehicle import Vehicle
 from properties.vehicles import random_long_vehicle
 

@@ -9,8 +9,9 @@ from beal.discretisation import discretise
 from beal.motion import ModeShape, Release, Response, growth_rate, response
 from beal.motion.exact import exact
 from beal.motion.newmark import newmark
-from beal.motion.signals import samples
-from beal.vehicle.parts import Force, Joint, Pulse, Sensor, Sine, Stage, Step, Table, Thrust
+from beal.motion.signals import samples, terms
+from beal.vehicle.parts import Force, Joint, Sensor, Stage, Thrust
+from beal.vehicle.signals import Chirp, Gust, Noise, Pulse, Sine, Step, Table
 from beal.vehicle.vehicle import Vehicle
 
 MASS, OMEGA = 2.0, 3.0
@@ -18,6 +19,9 @@ SINE = Sine(kind="sine", amplitude=1.5, angular_frequency=2.0, phase=0.4)
 RESONANT = Sine(kind="sine", amplitude=1.5, angular_frequency=OMEGA)
 STEP = Step(kind="step", amplitude=1.5, start=0.737)
 PULSE = Pulse(kind="pulse", amplitude=1.5, start=0.737, duration=1.1)
+GUST = Gust(kind="gust", amplitude=1.5, start=0.737, duration=1.1)
+CHIRP = Chirp(kind="chirp", amplitude=1.5, first=0.5, last=20.0, duration=4.0, phase=0.4)
+NOISE = Noise(kind="noise", angular_frequency=[0.5, 5.0], density=[0.3, 0.1], seed=3, lines=40)
 TABLE = Table(kind="table", time=(0.5, 1.013, 2.0), value=(0.0, 2.0, -1.0))
 
 
@@ -42,6 +46,39 @@ def table_response(t):
     return sum(kink * ramp_response(t, start) for kink, start in zip(np.diff(slopes), TABLE.time, strict=True))
 
 
+def gust(t):
+    return 1.5 / 2 * (1 - np.cos(2 * math.pi * (t - 0.737) / 1.1)) * ((t > 0.737) & (t < 1.837))
+
+
+def chirp(t):
+    return 1.5 * np.sin(np.where(t < 4.0, 0.5 * t + 19.5 * t**2 / 8, 0.5 * 4 + 19.5 * 2 + 20.0 * (t - 4.0)) + 0.4)
+
+
+def quadrature(force, breaks):
+    """Duhamel's integral at increasing times, by Gauss's rule on short panels between them and the breaks."""
+
+    def displacement(t):
+        nodes = np.unique(np.concatenate([np.linspace(0, t[-1], 1401), t, np.clip(breaks, 0, t[-1])]))
+        x, w = np.polynomial.legendre.leggauss(6)
+        half = np.diff(nodes)[:, None] / 2
+        s = nodes[:-1, None] + half * (1 + x)
+        inside = [np.cumsum((half * w * force(s) * f(OMEGA * s)).sum(axis=1)) for f in (np.cos, np.sin)]
+        cosine, sine = (np.concatenate([[0.0], part])[np.searchsorted(nodes, t)] for part in inside)
+        return (np.sin(OMEGA * t) * cosine - np.cos(OMEGA * t) * sine) / (MASS * OMEGA)
+
+    return displacement
+
+
+def noise_response(t):
+    """The sum of the closed forms of its sines."""
+    total = np.zeros_like(t)
+    for term in terms(NOISE):
+        w, a = term.angular_frequency, term.amplitude / MASS / (OMEGA**2 - term.angular_frequency**2)
+        start, rate = a * math.sin(term.phase), a * w * math.cos(term.phase)
+        total += a * np.sin(w * t + term.phase) - start * np.cos(OMEGA * t) - rate / OMEGA * np.sin(OMEGA * t)
+    return total
+
+
 CLOSED_FORMS = [
     pytest.param(SINE, sine_response, id="sine"),
     pytest.param(
@@ -52,6 +89,9 @@ CLOSED_FORMS = [
     pytest.param(STEP, lambda t: 1.5 * step_response(t, 0.737), id="step"),
     pytest.param(PULSE, lambda t: 1.5 * (step_response(t, 0.737) - step_response(t, 1.837)), id="pulse"),
     pytest.param(TABLE, table_response, id="table"),
+    pytest.param(GUST, quadrature(gust, [0.737, 1.837]), id="gust"),
+    pytest.param(CHIRP, quadrature(chirp, [4.0]), id="chirp"),
+    pytest.param(NOISE, noise_response, id="noise"),
 ]
 
 
@@ -112,10 +152,15 @@ def test_growth_of_a_circulatory_pair_is_that_of_its_eigenvalue(coupling):
         sensors=("first",),
         displacement=q.T[:1],
         rate=rate.T[:1],
+        acceleration=0 * q.T[:1],
         slope=0 * q.T[:1],
+        slope_rate=0 * q.T[:1],
+        rigid_displacement=0 * q.T[:1],
+        rigid_slope=0 * q.T[:1],
         coordinates=q,
         coordinate_rates=rate,
         thrust=0.0,
+        thrust_history=np.zeros(count + 1),
         method="exact",
         step=step,
         mu=np.linalg.eigvals(stiffness).astype(complex),
@@ -131,17 +176,38 @@ def test_force_of_the_tail_flies_a_free_vehicle_away():
         forces=[Force(station=1.0, signal=Step(kind="step", amplitude=force))],
         sensors=[Sensor(name=f"s{i}", station=x) for i, x in enumerate(GAUSS)],
     )
-    motion = response(beam, duration=3.0, thrust=0.0, step=0.1, method="exact")
+    motion = response(beam, duration=3.0, thrust=0.0, step=0.1, modes=1, method="exact")
     centre = WEIGHTS @ motion.displacement
     attitude = 12 * (WEIGHTS * (GAUSS - 0.5)) @ motion.displacement
     np.testing.assert_allclose(centre, force * motion.time**2 / (2 * mass), rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(attitude, 3 * force * motion.time**2 / mass, rtol=1e-9, atol=1e-12)
 
 
+@pytest.mark.parametrize("method", ["exact", "newmark"])
+def test_the_rigid_body_part_of_a_flight_is_the_line_with_its_momentum_and_the_rest_has_none(method):
+    force, mass, stations = 0.3, 2.0, (*GAUSS, 0.0, 0.3, 1.0)
+    beam = uniform_beam(
+        mass_per_length=mass,
+        forces=[Force(station=1.0, signal=Step(kind="step", amplitude=force))],
+        sensors=[Sensor(name=f"s{i}", station=x) for i, x in enumerate(stations)],
+    )
+    motion = response(beam, duration=1.0, thrust=0.0, modes=4, method=method)
+    line = force * motion.time**2 / mass * (0.5 + 3 * (np.array(stations)[:, None] - 0.5))
+    np.testing.assert_allclose(motion.rigid_displacement, line, atol=1e-9)
+    np.testing.assert_allclose(motion.rigid_slope[0], 3 * force * motion.time**2 / mass, atol=1e-9)
+    elastic = motion.elastic_displacement[: len(GAUSS)]
+    for moment in (WEIGHTS, WEIGHTS * GAUSS):
+        np.testing.assert_allclose(moment @ elastic, 0.0, atol=1e-9 * abs(elastic).max())
+    np.testing.assert_allclose(motion.rigid_slope + motion.elastic_slope, motion.slope)
+    assert abs(motion.elastic_slope).max() > 1e-3 * abs(motion.rigid_slope).max()
+
+
 def test_follower_thrust_pushes_the_centre_of_mass_against_the_slope_of_the_tail():
     thrust = 60.0
     beam = uniform_beam(sensors=[Sensor(name=f"s{i}", station=x) for i, x in enumerate([*GAUSS, 1.0])])
-    motion = response(beam, duration=0.5, thrust=thrust, step=0.001, method="exact", initial=ModeShape(1, 0.01))
+    motion = response(
+        beam, duration=0.5, thrust=thrust, step=0.001, modes=8, method="exact", initial=ModeShape(1, 0.01)
+    )
     centre = WEIGHTS @ motion.displacement[:-1]
     acceleration = np.diff(centre, 2) / motion.step**2
     largest = abs(acceleration).max()
@@ -160,6 +226,7 @@ def test_free_vibration_of_a_uniform_beam_follows_its_analytic_mode():
         duration=1.0,
         thrust=0.0,
         step=0.01,
+        modes=3,
         method="exact",
         initial=ModeShape(2, amplitude=0.05, at="nose"),
     )
@@ -211,6 +278,7 @@ def test_paper_vehicle_flutters_above_its_critical_thrust_at_the_rate_of_its_eig
     assert growth_rate(motion, "imu") == pytest.approx(growth, rel=1e-3)
 
 
+@pytest.mark.filterwarnings("ignore::beal.motion.steps.AliasingWarning")
 def test_modes_left_out_hardly_matter_to_a_released_vehicle():
     """The eight and twelve lowest modes give the same motion to a share of 1e-3 of the nose's deflection."""
     vehicle = discretise(paper_vehicle())

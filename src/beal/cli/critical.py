@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 DRAWN, POINTS = 1.3, 151  # thrusts of a figure: over the critical one, and their number
 FEWEST, MOST = 4, 14  # modes in a figure
+GROWTH = ("thrust", "growth", "instant", "lower_bound", "upper_bound")
 BESIDE = {"undamped": "without its damping", "vanishing_damping": "in the limit of vanishing damping"}
 
 
@@ -28,12 +29,17 @@ def critical(
     formulation: Formulation = "objective",
     size: Annotated[int | None, typer.Option("--modes", metavar="N", help="Size of the Ritz formulations.")] = None,
     complete: Annotated[bool, typer.Option("--complete", help="By one eigenvalue problem, without a search.")] = False,
+    growth: Annotated[
+        float | None,
+        typer.Option("--growth", metavar="P", help="Also the largest transient growth of energy under that thrust."),
+    ] = None,
     figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
     from beal.errors import ModelError
     from beal.interop.files import load
+    from beal.motion import transient_growth
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.vanishing import vanishing_damping_limit
 
@@ -55,17 +61,32 @@ def critical(
             beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
         except ModelError:  # the damping is what bears the dead loads: all else was checked above
             beside = dict.fromkeys(BESIDE)
+    transient = None if growth is None else transient_growth(vehicle, growth)
     if as_json:
         listed = {"events": [_event(event) for event in events]} if every else {}
         others = {name: other and asdict(other) for name, other in beside.items()}
+        told = {"transient_growth": {name: getattr(transient, name) for name in GROWTH}} if transient else {}
         emit(
-            {**asdict(found), **_relative(vehicle, found), "units": vehicle.units, **others, **listed, **named(figure)}
+            {
+                **asdict(found),
+                **_relative(vehicle, found),
+                "units": vehicle.units,
+                **others,
+                **listed,
+                **told,
+                **named(figure),
+            }
         )
         return
     print(_verdict(vehicle, found))
     for name, other in beside.items():
         verdict = _instability(vehicle, other.elastic or other) if other else "its dead loads alone make it unstable"
         print(f"{BESIDE[name]}: {verdict}")
+    if transient:
+        print(
+            f"under a thrust of {quantity(transient.thrust, _thrust_unit(vehicle))} the energy of a motion may grow "
+            f"{transient.growth:.4g}-fold before it comes back"
+        )
     print(_searched(vehicle, found))
     if convention := _convention(vehicle, formulation):
         print(convention)

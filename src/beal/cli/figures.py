@@ -1,9 +1,9 @@
 """What commands draw with ``--figure``: a file of the kind that its name's ending says."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from beal.cli.output import new_path, note
 from beal.errors import ModelError
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from beal.control import ControlLocus
     from beal.discretisation.operators import Operators
-    from beal.motion import Response
+    from beal.motion import Quantity, Response
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust
     from beal.stability.curve import ThrustCurve
@@ -23,11 +23,10 @@ if TYPE_CHECKING:
     from beal.study.flight import Flight
     from beal.vehicle.vehicle import Vehicle
 
-Quantity = Literal["displacement", "rate", "slope"]
 FORMATS = (".png", ".svg", ".pdf")
 DOTS = 300  # per inch of a picture, as printers ask for
 WIDE, HIGH = 5.0, 3.0  # of a panel, inches
-QUANTITIES: tuple[Quantity, ...] = ("displacement", "rate", "slope")
+DRAWN: "tuple[Quantity, ...]" = ("displacement", "rate", "slope")
 
 Draw = Callable[[], "Figure"]
 
@@ -124,18 +123,18 @@ def curve_figure(
     return figure
 
 
-def response_figure(found: "Response", nondimensional: bool) -> "Figure":
-    """Deflection, rate and slope over time, a column for each sensor."""
+def response_figure(found: "Response", nondimensional: bool, quantities: "Sequence[Quantity]" = DRAWN) -> "Figure":
+    """Quantities over time, a column for each sensor."""
     from matplotlib.figure import Figure
 
     from beal import plot
 
     number = len(found.sensors)
-    figure = Figure(figsize=(WIDE * max(1.0, 0.7 * number), 2 * HIGH), layout="constrained")
-    panels = figure.subplots(len(QUANTITIES), number, sharex=True, squeeze=False)
+    figure = Figure(figsize=(WIDE * max(1.0, 0.7 * number), 2 / 3 * HIGH * len(quantities)), layout="constrained")
+    panels = figure.subplots(len(quantities), number, sharex=True, squeeze=False)
     for sensor, column in zip(found.sensors, panels.T, strict=True):
         column[0].set_title(sensor, loc="left")
-        for quantity, ax in zip(QUANTITIES, column, strict=True):
+        for quantity, ax in zip(quantities, column, strict=True):
             plot.response(found, ax, sensor, quantity, nondimensional)
             ax.label_outer()
     return figure

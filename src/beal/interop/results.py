@@ -6,7 +6,7 @@ import numpy as np
 
 from beal.control import ClosedLoop, StateSpace
 from beal.discretisation.operators import Operators
-from beal.motion.histories import Response
+from beal.motion.histories import PARTS, QUANTITIES, Response
 from beal.stability.curve import ThrustCurve
 from beal.stability.spectrum import Spectrum
 
@@ -23,7 +23,13 @@ UNITS = {
     "time": "s",
     "displacement": "m",
     "rate": "m/s",
+    "acceleration": "m/s^2",
     "slope": "rad",
+    "slope_rate": "rad/s",
+    "rigid_displacement": "m",
+    "elastic_displacement": "m",
+    "rigid_slope": "rad",
+    "elastic_slope": "rad",
 }
 
 
@@ -112,10 +118,11 @@ def response(found: Response) -> "xarray.Dataset":
     Returns
     -------
     xarray.Dataset
-        ``displacement``, ``rate`` and ``slope`` over ``sensor`` and ``time``.
+        What a sensor reads, and its rigid and elastic parts, over ``sensor`` and ``time``.
     """
+    names = (*QUANTITIES, *PARTS)
     return _labelled(
-        {name: (("sensor", "time"), getattr(found, name)) for name in ("displacement", "rate", "slope")},
+        {name: (("sensor", "time"), getattr(found, name)) for name in names},
         {"sensor": list(found.sensors), "time": found.time},
         {"thrust": found.thrust, "method": found.method, "step": found.step},
     )

@@ -13,8 +13,14 @@ if TYPE_CHECKING:
 
 START = END = "    -1"
 NONE = "NONE"
-TIME, DISPLACEMENT, VELOCITY, UNKNOWN = 17, 8, 11, 0  # specific data types
-QUANTITIES = {"displacement": (DISPLACEMENT, 2), "rate": (VELOCITY, 2), "slope": (UNKNOWN, 6)}  # and direction
+TIME, DISPLACEMENT, VELOCITY, ACCELERATION, UNKNOWN = 17, 8, 11, 12, 0  # specific data types
+QUANTITIES = {  # and direction
+    "displacement": (DISPLACEMENT, 2),
+    "rate": (VELOCITY, 2),
+    "acceleration": (ACCELERATION, 2),
+    "slope": (UNKNOWN, 6),
+    "slope_rate": (UNKNOWN, 6),
+}
 
 
 def write_uff(dataset: "xarray.Dataset", path: str | os.PathLike[str]) -> None:

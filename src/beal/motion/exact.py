@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
+from scipy.linalg import block_diag, expm
 
 from beal.motion import signals
 from beal.motion.march import march
-from beal.vehicle.parts import Signal
+from beal.vehicle.signals import Signal
 
 Array = NDArray[np.float64]
 SNAP = 1e-9  # share of a step within which a breakpoint counts as an output time
@@ -25,9 +25,9 @@ def exact(
 ) -> tuple[Array, Array]:
     """Time history of q'' + D q' + A q = B F(t) at multiples of a step, without error of the step.
 
-    Each signal joins the state as (F, F') with F'' = -w^2 F, which holds between its breakpoints; the
-    exponential of the matrix of (q, q', F, F') then carries all of it over any interval without a breakpoint.
-    It exists whatever A is: singular, defective, or with roots of either sign.
+    Between its breakpoints each signal is carried by a linear system z' = G z (`beal.motion.signals`); the
+    exponential of the matrix of (q, q', z) then takes all of it over any interval without a breakpoint. It exists
+    whatever A is: singular, defective, or with roots of either sign.
 
     Parameters
     ----------
@@ -51,53 +51,62 @@ def exact(
 
     Examples
     --------
-    >>> from beal.vehicle.parts import Step
+    >>> from beal.vehicle.signals import Step
     >>> kick = Step(kind="step", amplitude=2.0)
     >>> rest = np.zeros(1), np.zeros(1)
     >>> q, rate = exact(np.zeros((1, 1)), np.ones((1, 1)), [kick], rest, step=1.0, count=3)  # F t^2 / 2
     >>> np.allclose(q.ravel(), [0, 1, 4, 9])
     True
     """
-    size = len(stiffness)
-    frequencies = [signals.angular_frequency(signal) for signal in loads]
+    terms = [(term, shape) for load, shape in zip(loads, shapes.T, strict=True) for term in signals.terms(load)]
+    frequencies = [signals.highest_frequency(term) for term, _ in terms]
     scale = max(float(np.linalg.norm(stiffness, 2)) ** 0.5, 1 / step, *frequencies)  # rates are kept as rate/scale
-    matrix = _generator(stiffness, shapes, frequencies, scale)
-    if damping is not None:
-        matrix[size : 2 * size, size : 2 * size] = -damping
-    nodes, lengths = _intervals([t for signal in loads for t in signals.breakpoints(signal)], step, count)
+    matrix = _generator(stiffness, damping, scale)
+    breaks = [t for term, _ in terms for t in signals.breakpoints(term)]
+    longest = min((signals.longest_interval(term) / step for term, _ in terms), default=np.inf)
+    starts, lengths, output = intervals(breaks, step, count, longest)
+    middles = (starts + lengths / 2) * step  # where rounding has put no one on the wrong side of a breakpoint
     distinct, which = np.unique(lengths, return_inverse=True)
-    exponentials = [np.asarray(expm(matrix * (length * step))) for length in distinct]
-    forcing = np.zeros((len(lengths), 2 * size))
-    if loads:
-        states = np.vstack([signals.states(load, nodes[:-1] * step, lengths * step) for load in loads])
-        states[1::2] /= scale
-        for index, exponential in enumerate(exponentials):
-            forcing[which == index] = states[:, which == index].T @ exponential[: 2 * size, 2 * size :].T
-    transitions = [exponential[: 2 * size, : 2 * size] for exponential in exponentials]
-    history = march(transitions, which, forcing, np.concatenate([start[0], start[1] / scale]))
-    output = history[np.isin(nodes, np.arange(count + 1.0))]
-    return output[:, :size], output[:, size:] * scale
-
-
-def _generator(stiffness: Array, shapes: Array, frequencies: Sequence[float], scale: float) -> Array:
-    """Matrix of d/dt (q, q'/scale, F_1, F_1'/scale, F_2, ...)."""
+    transitions = [np.asarray(expm(matrix * (length * step))) for length in distinct]
+    forcing = np.zeros((len(lengths), len(matrix)))
+    for term, shape in terms:
+        states, carrier = signals.state(term, middles), signals.generator(term)
+        for index, length in enumerate(distinct * step):
+            gain = _gain(matrix, carrier, shape / scale, length)
+            forcing[which == index] += (gain @ states[:, which == index]).T
+    history = march(transitions, which, forcing, np.concatenate([start[0], start[1] / scale]))[output]
     size = len(stiffness)
-    matrix = np.zeros((2 * (size + len(frequencies)),) * 2)
-    matrix[:size, size : 2 * size] = scale * np.eye(size)
-    matrix[size : 2 * size, :size] = -stiffness / scale
-    matrix[size : 2 * size, 2 * size :: 2] = shapes / scale
-    for index, w in enumerate(frequencies):
-        row = 2 * (size + index)
-        matrix[row : row + 2, row : row + 2] = [[0.0, scale], [-(w**2) / scale, 0.0]]
-    return matrix
+    return history[:, :size], history[:, size:] * scale
 
 
-def _intervals(breaks: Sequence[float], step: float, count: int) -> tuple[Array, Array]:
-    """Ends and lengths, in steps, of the intervals between output times and breakpoints.
+def _generator(stiffness: Array, damping: Array | None, scale: float) -> Array:
+    """Matrix of d/dt (q, q'/scale)."""
+    size = len(stiffness)
+    damping = np.zeros((size, size)) if damping is None else damping
+    return np.block([[np.zeros((size, size)), scale * np.eye(size)], [-stiffness / scale, -damping]])
 
-    Whole steps have length 1 exactly, so that one exponential serves them all.
+
+def _gain(matrix: Array, carrier: Array, shape: Array, length: float) -> Array:
+    """What a signal adds to the state over an interval, from the state of the signal in its middle."""
+    joined = block_diag(matrix, carrier)
+    joined[len(shape) : len(matrix), len(matrix)] = shape
+    forward, back = expm(joined * length), expm(carrier * (-length / 2))
+    return np.asarray(forward[: len(matrix), len(matrix) :] @ back)
+
+
+def intervals(
+    breaks: Sequence[float], step: float, count: int, longest: float
+) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Starts and lengths, in steps, of the intervals between output times and breakpoints, and which ends are output.
+
+    Whole steps have length 1 exactly, so that one exponential serves them all; what is too long is cut
+    evenly.
     """
     inside = np.array([t / step for t in breaks if 0 < t < count * step])
     whole = np.round(inside)
-    nodes: Array = np.union1d(np.arange(count + 1.0), np.where(abs(inside - whole) < SNAP, whole, inside))
-    return nodes, np.diff(nodes)
+    nodes = np.union1d(np.arange(count + 1.0), np.where(abs(inside - whole) < SNAP, whole, inside))
+    parts = np.maximum(np.ceil(np.diff(nodes) / longest), 1).astype(np.intp)
+    ends = np.concatenate([[0], np.cumsum(parts)])
+    lengths = np.repeat(np.diff(nodes) / parts, parts)
+    starts = np.repeat(nodes[:-1], parts) + (np.arange(ends[-1]) - np.repeat(ends[:-1], parts)) * lengths
+    return starts, lengths, ends[np.isin(nodes, np.arange(count + 1.0))]

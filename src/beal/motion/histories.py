@@ -1,6 +1,7 @@
 """Time histories at the sensors, and the growth that they show."""
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,9 @@ from numpy.typing import NDArray
 from beal.errors import ModelError
 
 Array = NDArray[np.float64]
+Quantity = Literal["displacement", "rate", "acceleration", "slope", "slope_rate"]  # what a sensor reads
+QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
+PARTS = ("rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope")
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,32 +24,54 @@ class Response:
         In s.
     sensors : tuple of str
         Names, in the order of the rows below.
-    displacement, rate, slope : ndarray, shape (sensors, k)
-        In m, m/s and rad. At a joint's station, of the face aft of it.
+    displacement, rate, acceleration : ndarray, shape (sensors, k)
+        In m, m/s and m/s^2. At a joint's station, of the face aft of it.
+    slope, slope_rate : ndarray, shape (sensors, k)
+        In rad and rad/s.
+    rigid_displacement, rigid_slope : ndarray, shape (sensors, k)
+        The part of the rigid-body motion, in m and rad: what the straight line does that has the vehicle's momentum
+        and angular momentum. The rest is elastic.
     coordinates, coordinate_rates : ndarray, shape (k, n)
         q and q' in the coordinates of the operators: ``operators.shape(x) @ coordinates.T`` is the deflection
         at x.
     thrust : float
+        In N; the middle of its range where it varies.
+    thrust_history : ndarray, shape (k,)
         In N.
     method : {"newmark", "exact"}
     step : float
         In s.
     mu : ndarray of complex
-        The eigenvalues omega^2 of the modes that were kept, without damping, rigid-body motions included, in
-        rad^2/s^2.
+        The eigenvalues omega^2 of the modes that were kept, at ``thrust`` without damping, rigid-body motions
+        included, in rad^2/s^2.
     """
 
     time: Array
     sensors: tuple[str, ...]
     displacement: Array
     rate: Array
+    acceleration: Array
     slope: Array
+    slope_rate: Array
+    rigid_displacement: Array
+    rigid_slope: Array
     coordinates: Array
     coordinate_rates: Array
     thrust: float
+    thrust_history: Array
     method: str
     step: float
     mu: NDArray[np.complex128]
+
+    @property
+    def elastic_displacement(self) -> Array:
+        """Displacement without its part of rigid-body motion, in m, shape (sensors, k)."""
+        return self.displacement - self.rigid_displacement
+
+    @property
+    def elastic_slope(self) -> Array:
+        """Slope without its part of rigid-body motion, in rad, shape (sensors, k)."""
+        return self.slope - self.rigid_slope
 
     def index(self, sensor: str) -> int:
         """Row of a sensor."""
@@ -53,10 +79,16 @@ class Response:
             raise ModelError(f"sensor: must be one of {', '.join(self.sensors)}, found {sensor!r}")
         return self.sensors.index(sensor)
 
+    def history(self, sensor: str, quantity: str = "displacement") -> Array:
+        """One quantity at a sensor, shape (k,)."""
+        if quantity not in QUANTITIES:
+            raise ModelError(f"quantity: must be one of {', '.join(QUANTITIES)}, found {quantity!r}")
+        values: Array = getattr(self, quantity)[self.index(sensor)]
+        return values
+
     def trajectory(self, sensor: str) -> tuple[Array, Array]:
         """Displacement [m] and rate [m/s] of a sensor, the phase plane, shape (k,) each."""
-        row = self.index(sensor)
-        return self.displacement[row], self.rate[row]
+        return self.history(sensor), self.history(sensor, "rate")
 
 
 def growth_rate(response: Response, sensor: str) -> float:

@@ -175,6 +175,39 @@ class Samples:
         return q, q_rate
 
 
+@dataclass(frozen=True, eq=False)
+class State:
+    """Coordinates and their rates as they are, such as those with which a motion before has ended.
+
+    Parameters
+    ----------
+    q, q_rate : ndarray, shape (n,)
+        In the coordinates of the operators.
+
+    Examples
+    --------
+    >>> from beal.discretisation import discretise
+    >>> from beal.vehicle import catalog
+    >>> beam = discretise(catalog.beal())
+    >>> q, rate = State(*ModeShape(1, 0.01).coordinates(beam)).coordinates(beam)
+    >>> rate.any()
+    np.False_
+    """
+
+    q: Array
+    q_rate: Array
+
+    def coordinates(self, operators: Operators) -> tuple[Array, Array]:
+        """q and q', shape (n,) each."""
+        size = len(operators.M)
+        if not np.shape(self.q) == np.shape(self.q_rate) == (size,):
+            raise ModelError(
+                f"initial: needs {size} coordinates and as many rates, found {np.shape(self.q)} and "
+                f"{np.shape(self.q_rate)}; take the operators that they belong to"
+            )
+        return self.q, self.q_rate
+
+
 def _finite(name: str, number: float) -> float:
     if not np.isfinite(number):
         raise ModelError(f"initial: {name} must be finite, found {number}")

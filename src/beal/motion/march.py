@@ -40,10 +40,15 @@ def march(transitions: Sequence[Array], which: NDArray[np.intp], forcing: Array,
     with np.errstate(over="ignore", invalid="ignore"):
         for k, index in enumerate(which.tolist()):
             states[k + 1] = transitions[index] @ states[k] + forcing[k]
+    check_range(states)
+    return states
+
+
+def check_range(states: Array) -> None:
+    """Refuses a history, times in rows, that has left the range of numbers."""
     lost = ~np.isfinite(states).all(axis=1)
     if lost.any():
         raise ConvergenceError(
             f"response: the motion outgrew the range of numbers in step {int(np.argmax(lost))} of "
-            f"{len(which)}; shorten the duration, or the step if the vehicle is stable"
+            f"{len(states) - 1}; shorten the duration, or the step if the vehicle is stable"
         )
-    return states

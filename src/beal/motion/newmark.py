@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from beal.errors import ModelError
-from beal.motion.march import march
+from beal.motion.march import check_range, march
 
 Array = NDArray[np.float64]
 
@@ -88,6 +88,55 @@ def newmark(
     states = march([transition], np.zeros(len(forcing), dtype=np.intp), forcing, np.r_[q, step * rate, step**2 * first])
     q, rate, acceleration = np.split(states, 3, axis=1)
     return q, rate / step, acceleration / step**2
+
+
+def newmark_varying(
+    stiffness: Array,
+    per_change: Array,
+    change: Array,
+    load: Array,
+    start: tuple[Array, Array],
+    step: float,
+    beta: float,
+    gamma: float,
+    damping: Array | None,
+) -> tuple[Array, Array, Array]:
+    """Time history of q'' + C q' + (K + p(t) B) q = f with a constant step, as `newmark` without p.
+
+    Parameters
+    ----------
+    stiffness, per_change : ndarray, shape (n, n)
+        K and B.
+    change : ndarray, shape (k + 1,)
+        p at the times 0, h, ..., k h.
+    load, start, step, beta, gamma, damping
+        As of `newmark`.
+
+    Returns
+    -------
+    q, rate, acceleration : ndarray, shape (k + 1, n)
+
+    Raises
+    ------
+    ConvergenceError
+        If the motion outgrows the range of floating-point numbers.
+    """
+    q, rate, acceleration = (np.empty_like(load) for _ in range(3))
+    q[0], rate[0] = start
+    C = np.zeros_like(stiffness) if damping is None else damping
+    constant = np.eye(len(stiffness)) + gamma * step * C
+    acceleration[0] = load[0] - (stiffness + change[0] * per_change) @ q[0] - C @ rate[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        for k in range(len(load) - 1):
+            q[k + 1] = q[k] + step * rate[k] + (0.5 - beta) * step**2 * acceleration[k]
+            rate[k + 1] = rate[k] + (1 - gamma) * step * acceleration[k]
+            K = stiffness + change[k + 1] * per_change
+            rest = load[k + 1] - K @ q[k + 1] - C @ rate[k + 1]
+            acceleration[k + 1] = np.linalg.solve(constant + beta * step**2 * K, rest)
+            q[k + 1] += beta * step**2 * acceleration[k + 1]
+            rate[k + 1] += gamma * step * acceleration[k + 1]
+    check_range(q)
+    return q, rate, acceleration
 
 
 def check_parameters(beta: float, gamma: float) -> None:

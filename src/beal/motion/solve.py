@@ -1,36 +1,32 @@
 """From a vehicle, its thrust, its forces and a start to time histories."""
 
 import math
-import warnings
 from typing import Literal, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beal.discretisation import discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
-from beal.motion import signals
-from beal.motion.exact import exact
 from beal.motion.histories import Response
 from beal.motion.initial import Initial
-from beal.motion.newmark import check_parameters, largest_step, newmark
+from beal.motion.integrate import Problem, by_newmark, without_error_of_the_step
+from beal.motion.newmark import check_parameters
 from beal.motion.reduction import ReducedEquations, reduce
+from beal.motion.steps import check_step, frequencies, step_count
+from beal.motion.thrusts import PulsatingThrust, ThrustHistory, ThrustTable
 from beal.vehicle.vehicle import Vehicle
 
+Array = NDArray[np.float64]
+
 Method = Literal["newmark", "exact"]
-RESOLVED_MODE = 4  # the elastic mode up to which the default step resolves the motion
-STEPS_PER_PERIOD, FEWEST_STEPS_PER_PERIOD = 40, 10
-MOST_STEPS = 1_000_000
-
-
-class CoarseStepWarning(RuntimeWarning):
-    """The step of Newmark's method is too long for the motion of interest; the message says by how much."""
 
 
 def response(
     model: Vehicle | Operators,
     duration: float,
-    thrust: float | None = None,
+    thrust: float | ThrustHistory | None = None,
     *,
     step: float | None = None,
     method: Method = "newmark",
@@ -40,22 +36,25 @@ def response(
     beta: float = 0.25,
     gamma: float = 0.5,
 ) -> Response:
-    """Motion of a vehicle under a constant thrust and its transverse forces, read at its sensors.
+    """Motion of a vehicle under its thrust and its transverse forces, read at its sensors.
 
-    Solves M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest undamped modes of the loaded vehicle.
+    Solves M q'' + C q' + (K0 + P K1) q = sum of F(t) phi(x_F) in the lowest undamped modes of the loaded vehicle; where
+    the thrust varies, of the vehicle under the middle of its range.
 
     Parameters
     ----------
     model : Vehicle or Operators
     duration : float
         In s.
-    thrust : float, optional
+    thrust : float, PulsatingThrust or ThrustTable, optional
         P, in N; by default the vehicle's nominal thrust.
     step : float, optional
         In s; shortened such that the duration is a whole number of steps. By default a fortieth of the
-        shortest period among the four lowest elastic modes and the sine forces.
+        shortest period among the four lowest elastic modes and the forces, and no more than half of the
+        shortest among all modes that are kept.
     method : {"newmark", "exact"}
-        ``exact`` has no error of the step, which then only spaces the output.
+        ``exact`` has no error of the step, which then only spaces the output: by the matrix exponential, or under a
+        varying thrust by collocation of eighth order to 1e-11 of the motion.
     initial : Initial, optional
         ``ModeShape``, ``Release`` or ``Samples``; by default at rest, which needs a force.
     modes : int
@@ -81,6 +80,8 @@ def response(
     -----
     CoarseStepWarning
         If Newmark's step is longer than a tenth of the shortest period of interest.
+    AliasingWarning
+        If the step takes fewer than two values from a period of the highest frequency that is kept.
 
     Notes
     -----
@@ -103,51 +104,62 @@ def response(
     _check_options(duration, step, method, modes)
     _check_content(vehicle, initial)
     check_parameters(beta, gamma)
-    thrust = _thrust(vehicle, thrust)
-    reduced = reduce(operators, thrust, modes, rigid_body)
-    shortest = _shortest_period(reduced, vehicle)
-    count = _count(duration, step or shortest / STEPS_PER_PERIOD)
+    varying = thrust if isinstance(thrust, PulsatingThrust | ThrustTable) else None
+    middle = thrust.middle if isinstance(thrust, PulsatingThrust | ThrustTable) else _thrust(vehicle, thrust)
+    reduced = reduce(operators, middle, modes, rigid_body)
+    found = frequencies(reduced, vehicle, varying.highest_frequency if varying else 0.0)
+    count = step_count(duration, step, found)
     step = duration / count
+    check_step(step, found, (beta, gamma) if method == "newmark" else None)
     start = (0.0 * reduced.mu.real, 0.0 * reduced.mu.real)
     if initial is not None:
         q, rate = initial.coordinates(operators)
         start = reduced.W.T @ operators.M @ q, reduced.W.T @ operators.M @ rate
-    loads = [force.signal for force in vehicle.forces]
-    shapes = reduced.W.T @ operators.shape([force.station for force in vehicle.forces]).T
+    problem = Problem(
+        reduced,
+        shapes=reduced.W.T @ operators.shape([force.station for force in vehicle.forces]).T,
+        loads=[force.signal for force in vehicle.forces],
+        start=start,
+        B=reduced.W.T @ operators.K1 @ reduced.X,
+        thrust=varying,
+    )
     if method == "exact":
-        p, p_rate = exact(reduced.A, shapes, loads, start, step, count, reduced.D)
+        motion = without_error_of_the_step(problem, step, count)
     else:
-        _check_step(step, shortest, float(np.sqrt(abs(reduced.mu[-1]))), beta, gamma)
-        load = np.array([signals.samples(signal, step, count + 1) for signal in loads]).reshape(-1, count + 1)
-        p, p_rate, _ = newmark(
-            np.eye(len(reduced.A)), reduced.A, (shapes @ load).T, start, step, beta, gamma, reduced.D
-        )
-    return _read(operators, reduced, p, p_rate, thrust, method, step)
+        motion = by_newmark(problem, step, count, beta, gamma)
+    return _read(operators, reduced, motion, (middle, varying), method, step)
 
 
 def _read(
     operators: Operators,
     reduced: ReducedEquations,
-    p: signals.Array,
-    p_rate: signals.Array,
-    thrust: float,
+    motion: tuple[Array, Array, Array],
+    thrust: tuple[float, ThrustHistory | None],
     method: str,
     step: float,
 ) -> Response:
-    """The histories at the sensors from those of the reduced coordinates."""
+    """The histories at the sensors from those of the reduced coordinates and their derivatives."""
     sensors = operators.vehicle.sensors
     stations = [sensor.station for sensor in sensors]
-    q, q_rate = p @ reduced.X.T, p_rate @ reduced.X.T
+    q, q_rate, q_acceleration = (p @ reduced.X.T for p in motion)
     deflection, slope = (operators.shape(stations, derivative) for derivative in (0, 1))
+    rigid = slice(operators.rigid)
+    time = step * np.arange(len(q), dtype=float)
+    middle, varying = thrust
     return Response(
-        time=step * np.arange(len(q), dtype=float),
+        time=time,
         sensors=tuple(sensor.name for sensor in sensors),
         displacement=deflection @ q.T,
         rate=deflection @ q_rate.T,
+        acceleration=deflection @ q_acceleration.T,
         slope=slope @ q.T,
+        slope_rate=slope @ q_rate.T,
+        rigid_displacement=deflection[:, rigid] @ q[:, rigid].T,
+        rigid_slope=slope[:, rigid] @ q[:, rigid].T,
         coordinates=q,
         coordinate_rates=q_rate,
-        thrust=thrust,
+        thrust=middle,
+        thrust_history=np.full_like(time, middle) if varying is None else varying.at(time),
         method=method,
         step=step,
         mu=reduced.mu,
@@ -182,34 +194,3 @@ def _thrust(vehicle: Vehicle, thrust: float | None) -> float:
     if not 0 <= thrust < math.inf:
         raise ModelError(f"thrust: must be finite and not negative, found {thrust}")
     return thrust
-
-
-def _shortest_period(reduced: ReducedEquations, vehicle: Vehicle) -> float:
-    """The shortest period of interest: of the lowest elastic modes, and of the sine forces."""
-    resolved = reduced.mu[: reduced.rigid + RESOLVED_MODE][-1]
-    forced = [signals.angular_frequency(force.signal) for force in vehicle.forces]
-    return 2 * math.pi / max([float(np.sqrt(abs(resolved))), *forced])
-
-
-def _count(duration: float, step: float) -> int:
-    count = math.ceil(duration / step * (1 - 1e-12))  # a step that divides the duration stays as it is
-    if count > MOST_STEPS:
-        raise ModelError(
-            f"step: at most {MOST_STEPS} steps are taken, found {count}; shorten the duration or lengthen the step"
-        )
-    return count
-
-
-def _check_step(step: float, shortest: float, highest: float, beta: float, gamma: float) -> None:
-    if step >= (stable := largest_step(highest, beta, gamma)):
-        raise ModelError(
-            f"step: with beta = {beta:g} and gamma = {gamma:g} it must be shorter than {stable:.3g}, "
-            f"found {step:.3g}; shorten it, keep fewer modes, or use beta >= gamma/2"
-        )
-    if step > shortest / FEWEST_STEPS_PER_PERIOD:
-        warnings.warn(
-            f"the step {step:.3g} is longer than a tenth of the shortest period of interest, {shortest:.3g}; "
-            'shorten it or use method = "exact"',
-            CoarseStepWarning,
-            stacklevel=3,
-        )

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from beal.discretisation.build import Formulation
 from beal.vehicle.catalog import tsto
-from beal.vehicle.parts import Force, Sine
+from beal.vehicle.parts import Force
+from beal.vehicle.signals import Sine
 from beal.vehicle.vehicle import Vehicle
 
 LOCATIONS = (0.2, 0.4, 0.6, 0.8)

@@ -1,15 +1,17 @@
 """Everything that the figures and the claims rest on, computed once: maps, curves and motions."""
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation import discretise
 from beal.discretisation.build import Formulation
-from beal.motion import ModeShape, Response, growth_rate, response
+from beal.discretisation.operators import Operators
+from beal.motion import QUANTITIES, AliasingWarning, ModeShape, Response, growth_rate, response
 from beal.paper import cases
 from beal.stability.critical import CriticalThrust, critical_thrust
 from beal.stability.curve import ThrustCurve, thrust_curve
@@ -172,14 +174,23 @@ def motion(vehicle: Vehicle, formulation: Formulation, thrust: float, duration: 
     initial = START if free else None
     step = duration / (DRAWN * round(duration / (DRAWN * NEWMARK_STEP)))
     newmark = response(operators, duration, thrust, step=step, initial=initial, rigid_body=False)
-    exact = response(operators, duration, thrust, step=DRAWN * step, method="exact", initial=initial, rigid_body=False)
+    exact = sampled(operators, duration, thrust, step=DRAWN * step, initial=initial, rigid_body=False)
     return Motion(_drawn(newmark), exact)
+
+
+def sampled(operators: Operators, duration: float, thrust: float, **options: Any) -> Response:
+    """The exact response at times that are too coarse for the fastest modes, which hardly move."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AliasingWarning)
+        return response(operators, duration, thrust, method="exact", **options)
 
 
 def _drawn(moved: Response) -> Response:
     """The history at the steps that are drawn."""
-    rows = {name: getattr(moved, name)[:, ::DRAWN] for name in ("displacement", "rate", "slope")}
-    columns = {name: getattr(moved, name)[::DRAWN] for name in ("time", "coordinates", "coordinate_rates")}
+    rows = {name: getattr(moved, name)[:, ::DRAWN] for name in (*QUANTITIES, "rigid_displacement", "rigid_slope")}
+    columns = {
+        name: getattr(moved, name)[::DRAWN] for name in ("time", "thrust_history", "coordinates", "coordinate_rates")
+    }
     return replace(moved, **rows, **columns)
 
 
@@ -200,7 +211,7 @@ def growth(joint: tuple[float, float, float], formulation: Formulation, thrust: 
     """
     step = duration / round(duration / 5e-3)
     operators = discretise(tsto(*joint), formulation)
-    moved = response(operators, duration, thrust, step=step, method="exact", initial=START, rigid_body=False)
+    moved = sampled(operators, duration, thrust, step=step, initial=START, rigid_body=False)
     size, quarter = abs(moved.displacement[0]), len(moved.time) // 4
     late = moved.rate[0][len(moved.time) // 2 :]
     return Growth(
@@ -230,12 +241,11 @@ def forced_amplitude(formulation: Formulation, thrust: float, amplitude: float, 
     float
     """
     operators = discretise(cases.forced(amplitude), formulation)
-    moved = response(
+    moved = sampled(
         operators,
         FORCED_DURATION,
         thrust,
         step=0.01,
-        method="exact",
         initial=START if free else None,
         rigid_body=False,
     )

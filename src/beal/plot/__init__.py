@@ -4,24 +4,28 @@ from beal.plot.control import control_locus
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
-from beal.plot.histories import response, trajectory
+from beal.plot.histories import amplitude_map, response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.pulsating import floquet_chart
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
+from beal.plot.transient import pseudospectrum, transient_growth
 
 __all__ = [
+    "amplitude_map",
     "control_locus",
     "deflections",
     "flight",
     "floquet_chart",
     "growth_rates",
     "mode_shapes",
+    "pseudospectrum",
     "response",
     "root_locus",
     "stability_map",
     "style",
     "thrust_curve",
     "trajectory",
+    "transient_growth",
     "vehicle",
 ]

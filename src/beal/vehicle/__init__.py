@@ -11,22 +11,20 @@ from beal.vehicle.parts import (
     Force,
     Joint,
     PointMass,
-    Pulse,
     Sensor,
-    Sine,
     Stage,
-    Step,
     Support,
-    Table,
     Thrust,
 )
 from beal.vehicle.paths import value_at, with_values
+from beal.vehicle.signals import Chirp, Gust, Noise, Pulse, Sine, Step, Table
 from beal.vehicle.tanks import Tank
 from beal.vehicle.timeline import Timeline
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
     "AxialLoad",
+    "Chirp",
     "Control",
     "Damping",
     "DistributedThrust",
@@ -34,7 +32,9 @@ __all__ = [
     "Filter",
     "Force",
     "Gain",
+    "Gust",
     "Joint",
+    "Noise",
     "PointMass",
     "Pulse",
     "Scales",

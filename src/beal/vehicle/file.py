@@ -3,7 +3,7 @@
 import json
 import os
 import tomllib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from beal.errors import ModelError
 from beal.vehicle.base import Part, problems
+from beal.vehicle.columns import columns
 from beal.vehicle.timeline_table import timeline_columns
 from beal.vehicle.vehicle import Vehicle
 
@@ -89,6 +90,15 @@ def read_timeline(path: str | os.PathLike[str], units: str | None) -> dict[str, 
         raise ModelError(error.problems, str(path)) from None
 
 
+def _read_signal(path: str | os.PathLike[str], units: str | None) -> dict[str, Any]:
+    """The fields of a table of a force over time from CSV, not checked yet."""
+    text = _text(path, "a table in CSV")
+    try:
+        return columns(text, units == "nondimensional", {"time": "s", "value": "N"}.get, "time and value")
+    except ModelError as error:
+        raise ModelError(error.problems, str(path)) from None
+
+
 def _text(path: str | os.PathLike[str], expected: str) -> str:
     try:
         return read_bytes(path, LARGEST_FILE, expected).decode("utf-8-sig")
@@ -157,14 +167,7 @@ def vehicle_from(data: dict[str, Any], source: str) -> Vehicle:
     known = ", ".join(fields.values())
     found = [(name, f"unknown key; known here: {known}") for name in refused]
     accepted = {key: value for key, value in data.items() if key not in refused}
-    timeline = accepted.get("timeline")
-    if isinstance(timeline, dict) and "file" in timeline:
-        try:
-            accepted["timeline"] = _timeline_beside(timeline, source, data.get("units"))
-        except ModelError as error:
-            name = f"timeline.file, {timeline['file']}"
-            found += [(f"{name}, {place}" if place else name, message) for place, message in error.problems]
-            del accepted["timeline"]
+    accepted = _with_tables(accepted, Path(source).parent, found)
     try:
         vehicle = Vehicle.model_validate(accepted, context={"units": data.get("units")})
     except ValidationError as error:
@@ -174,12 +177,37 @@ def vehicle_from(data: dict[str, Any], source: str) -> Vehicle:
     return vehicle
 
 
-def _timeline_beside(given: dict[str, Any], source: str, units: str | None) -> dict[str, Any]:
-    """The fields of a timeline that is a file of its own, named from where the model file is."""
-    name = given["file"]
-    if len(given) > 1 or not isinstance(name, str):
-        raise ModelError(f"must be the name of a file and nothing beside it, found {', '.join(given)}")
-    return read_timeline(Path(source).parent / name, units)
+def _with_tables(data: dict[str, Any], folder: Path, found: list[tuple[str, str]]) -> dict[str, Any]:
+    """The content of a model file with what is in files of their own, named from where it is; adds to the problems."""
+    units = data.get("units")
+
+    def beside(given: Any, name: str, read: Callable[[Path, str | None], dict[str, Any]], stand_in: Any) -> Any:
+        if not isinstance(given, dict) or "file" not in given:
+            return given
+        file, others = given["file"], given.keys() - {"file", "kind"}
+        try:
+            if others or not isinstance(file, str):
+                raise ModelError(f"must be the name of a file and nothing beside it, found {', '.join(given)}")
+            return {key: value for key, value in given.items() if key == "kind"} | read(folder / file, units)
+        except ModelError as error:
+            name = f"{name}.file, {file}"
+            found.extend((f"{name}, {place}" if place else name, message) for place, message in error.problems)
+            return stand_in
+
+    content = dict(data)
+    if "timeline" in data:
+        content["timeline"] = beside(data["timeline"], "timeline", read_timeline, None)
+    if isinstance(forces := data.get("force"), list):
+        content["force"] = list(forces)
+        for n, force in enumerate(forces):
+            if isinstance(force, dict) and isinstance(signal := force.get("signal"), dict) and _is_a_file(signal):
+                table = beside(signal, f"force[{n}].signal", _read_signal, {"kind": "step", "amplitude": 0.0})
+                content["force"][n] = force | {"signal": table}
+    return content
+
+
+def _is_a_file(signal: dict[str, Any]) -> bool:
+    return signal.get("kind") == "table" and "file" in signal
 
 
 def _parsed(text: str, source: str) -> dict[str, Any]:

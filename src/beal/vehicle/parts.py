@@ -9,6 +9,7 @@ from pydantic import Discriminator, Field, FiniteFloat, Tag, model_validator
 
 from beal.units import to_si
 from beal.vehicle.base import PLAIN, TABLE, Part, si
+from beal.vehicle.signals import Signal
 from beal.vehicle.stations import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -293,51 +294,6 @@ class Sensor(Part):
 
     name: str
     station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE]
-
-
-class Sine(Part):
-    """amplitude * sin(angular_frequency * t + phase)."""
-
-    kind: Literal["sine"]
-    amplitude: Annotated[FiniteFloat, si("N")]
-    angular_frequency: Annotated[FiniteFloat, si("rad/s"), POSITIVE]
-    phase: Annotated[FiniteFloat, si("rad")] = 0.0
-
-
-class Step(Part):
-    """0 before ``start``, amplitude from then on."""
-
-    kind: Literal["step"]
-    amplitude: Annotated[FiniteFloat, si("N")]
-    start: Annotated[FiniteFloat, si("s"), NOT_NEGATIVE] = 0.0
-
-
-class Pulse(Part):
-    """amplitude from ``start`` for ``duration``, 0 elsewhere."""
-
-    kind: Literal["pulse"]
-    amplitude: Annotated[FiniteFloat, si("N")]
-    start: Annotated[FiniteFloat, si("s"), NOT_NEGATIVE] = 0.0
-    duration: Annotated[FiniteFloat, si("s"), POSITIVE]
-
-
-class Table(Part):
-    """Linear between the given times, held before the first and after the last."""
-
-    kind: Literal["table"]
-    time: tuple[Annotated[FiniteFloat, si("s")], ...] = Field(min_length=2)
-    value: tuple[Annotated[FiniteFloat, si("N")], ...] = Field(min_length=2)
-
-    @model_validator(mode="after")
-    def _is_ordered(self) -> "Table":
-        if len(self.time) != len(self.value):
-            raise ValueError(f"time and value must be equally long, found {len(self.time)} and {len(self.value)}")
-        if any(b <= a for a, b in zip(self.time, self.time[1:], strict=False)):
-            raise ValueError("time must increase from entry to entry, found a repeated or a smaller one")
-        return self
-
-
-Signal = Annotated[Sine | Step | Pulse | Table, Field(discriminator="kind")]
 
 
 class Force(Part):
