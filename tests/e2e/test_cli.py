@@ -27,6 +27,7 @@ COMMANDS = [
     "curve",
     "flight",
     "control",
+    "floquet",
     "map",
     "response",
     "reproduce",
