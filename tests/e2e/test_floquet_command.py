@@ -8,7 +8,7 @@ import xarray
 
 @pytest.fixture
 def beck(written):
-    return written((files("beal.cli") / "examples" / "beck.toml").read_text(encoding="utf-8"), "beck.toml")
+    return written((files("beal.vehicle.catalog") / "models" / "beck.toml").read_text(encoding="utf-8"), "beck.toml")
 
 
 def at(thrust, amplitude, omega):
