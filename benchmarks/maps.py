@@ -109,7 +109,9 @@ def main() -> None:
     print(f"largest relative error {true_error(vehicle, chart, 200):.0e}, estimated {estimate:.0e}")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (folder / "model.toml").write_text((files("beal.cli") / "examples" / "tsto.toml").read_text(encoding="utf-8"))
+        (folder / "model.toml").write_text(
+            (files("beal.vehicle.catalog") / "models" / "tsto.toml").read_text(encoding="utf-8")
+        )
         print(f"beal map, {number} points, whole command    {command(folder, (0.6,)):5.2f} s")
         print(f"beal map, the four maps, {4 * number} points      {command(folder, SPLITS):5.2f} s")
 
