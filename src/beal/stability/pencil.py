@@ -83,21 +83,19 @@ def pencil(operators: Operators) -> Pencil:
     section 5): it contributes zero roots for every thrust and is left out.
     """
     rigid = operators.rigid
-    matrices = [matrix for matrix in (operators.K1, operators.C, operators.dead) if matrix is not None]
-    index = np.arange(rigid, len(operators.M))
+    kept = np.arange(len(operators.M)) >= rigid
+    drives = np.zeros((len(operators.M), rigid), dtype=bool)
+    for matrix in (operators.K1, operators.C, operators.dead):
+        if matrix is not None:
+            least = UNCOUPLED * np.abs(matrix[rigid:, rigid:]).max(initial=0.0)
+            drives |= np.abs(matrix[:, :rigid]) > least
     for _ in range(rigid):  # one motion may act on the elastic coordinates through another
-        others = np.setdiff1d(np.arange(rigid), index)
-        drives = np.zeros(len(others), dtype=bool)
-        for matrix in matrices:
-            drive = np.abs(matrix[np.ix_(index, others)]).max(axis=0, initial=0.0)
-            drives |= drive > UNCOUPLED * np.abs(matrix[rigid:, rigid:]).max(initial=0.0)
-        index = np.concatenate((others[drives], index))
-    index.sort()
-    select = np.ix_(index, index)
+        kept[:rigid] |= drives[kept].any(axis=0)
+    select = np.ix_(kept, kept)
     shift = operators.vehicle.scales.angular_frequency**2
     C, dead = (None if matrix is None else matrix[select] for matrix in (operators.C, operators.dead))
-    kept = len(index) - (len(operators.M) - rigid)
-    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], kept, shift, C, dead)
+    motions = int(kept[:rigid].sum())
+    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], motions, shift, C, dead)
 
 
 def _without_followers(full: Pencil) -> Pencil:
