@@ -71,8 +71,8 @@ def test_the_small_launcher_without_shear_has_the_frequencies_of_euler_and_berno
     assert found == pytest.approx([6.53797156, 20.25564031, 31.57644907, 50.24238922], rel=1e-7)
 
 
-# Its authors' frequencies with shear and rotary inertia: their elements leave an error that grows as the square of the
-# frequency, and their payload moves on the clamp band.
+# Its published frequencies with shear and rotary inertia, whose elements take the nodes' rotations for slopes in their
+# masses (see test_small_launcher.py): they come out lower, by a share that grows as the square of the frequency.
 def test_the_small_launcher_s_station_table_gives_its_frequencies_with_shear_and_rotary_inertia():
     v = small_launcher(
         Joint(rotational_stiffness=1.25e8, shear_stiffness=6e8),
