@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 
-from beal.discretisation.basis import CURVATURE, DEFLECTION, ROTATION, SHEAR, Array, Basis, segments
+from beal.discretisation.basis import DEFLECTION, ROTATION, Array, Basis, segments
 from beal.discretisation.chain import Chain
 from beal.discretisation.polynomials import gauss
-from beal.discretisation.strains import STRAINS, Strain, UniformShapes
+from beal.discretisation.strains import STRAINS, Strain, UniformShapes, carried
 from beal.discretisation.varying import LoadShapes, load_shapes, pieces
 from beal.vehicle.vehicle import Vehicle
 
@@ -85,23 +85,13 @@ class LegendreBasis(Basis):
         return blocks[0] if len(blocks) == 1 else np.hstack([np.zeros((len(xi), 0)), *blocks])
 
     def rows(self, segment: int, xi: Array, reading: int) -> Array:
-        deflection, rotation = self._front[segment]
-        rows = np.zeros((len(xi), self._size))
-        if reading == DEFLECTION:
-            rows += deflection + np.outer(self.segments[segment].length * (1 + xi) / 2, rotation)
-        elif reading not in (CURVATURE, SHEAR):
-            rows += rotation
+        rows = carried(reading, self.segments[segment].length, xi) @ self._front[segment]
         rows[:, self._columns[segment]] += self._local(segment, xi, reading)
         return rows
 
     def at_points(self, segment: int, reading: int) -> Array:
         xi = self.pieces[segment].xi if segment in self.pieces else gauss(self.quadrature)[0]
-        front = np.zeros((len(xi), 2))
-        if reading == DEFLECTION:
-            front[:, 0] = 1.0
-            front[:, 1] = self.segments[segment].length * (1 + xi) / 2
-        elif reading not in (CURVATURE, SHEAR):
-            front[:, 1] = 1.0
+        front = carried(reading, self.segments[segment].length, xi)
         return np.hstack((front, self._local(segment, xi, reading, points=True)))
 
     def expanded(self, segment: int, local: Array) -> Array:

@@ -16,24 +16,14 @@ from scipy.sparse import block_array, csc_array, csr_array, vstack
 from scipy.sparse.linalg import SuperLU, splu
 
 from beal.discretisation.assembly import energies, normalised
-from beal.discretisation.basis import (
-    CURVATURE,
-    DEFLECTION,
-    ROTATION,
-    SHEAR,
-    Array,
-    Basis,
-    Combined,
-    Rows,
-    segments,
-)
+from beal.discretisation.basis import DEFLECTION, ROTATION, Array, Basis, Combined, Rows, segments
 from beal.discretisation.chain import ground_springs, held, jump_scales
 from beal.discretisation.cuts import ALL
 from beal.discretisation.damping import dissipation
 from beal.discretisation.operators import Operators
 from beal.discretisation.polynomials import gauss
 from beal.discretisation.samples import losses, sample
-from beal.discretisation.strains import STRAINS, Strain, orthonormal
+from beal.discretisation.strains import STRAINS, Strain, carried, orthonormal
 from beal.discretisation.varying import LoadShapes, load_shapes, pieces
 from beal.vehicle.vehicle import Vehicle
 
@@ -116,7 +106,7 @@ class LinkedBasis(Basis):
     def rows_at(self, index: NDArray[np.intp], xi: Array, reading: int) -> Rows:
         """As of every basis; the xi may be a period of all."""
         everywhere = np.tile(xi, len(index) // max(len(xi), 1))
-        data = [self._fronts(self._lengths[index], everywhere, reading)]
+        data = [carried(reading, self._lengths[index], everywhere) * self.units]
         columns = [2 * index[:, None] + np.array([0, 1])]
         there: list[NDArray[np.bool_]] = [np.ones(columns[0].shape, dtype=bool)]
         for family in self._families:
@@ -137,7 +127,7 @@ class LinkedBasis(Basis):
 
     def at_points(self, segment: int, reading: int) -> Array:
         xi = self.pieces[segment].xi if segment in self.pieces else gauss(self.quadrature)[0]
-        blocks = [self._fronts(self._lengths[[segment]], xi, reading)]
+        blocks = [carried(reading, self._lengths[segment], xi) * self.units]
         for family in self._families:
             if not family.there[segment]:
                 continue
@@ -157,16 +147,6 @@ class LinkedBasis(Basis):
         columns = np.tile(np.hstack((2 * index[:, None] + [0, 1], *own)), (len(local), 1))
         ends = local.shape[1] * np.arange(len(local) + 1)
         return csr_array((local.ravel(), columns.ravel(), ends), (len(local), self.size))
-
-    def _fronts(self, lengths: Array, xi: Array, reading: int) -> Array:
-        """What a unit of the deflection and of the rotation at the front does, shape (len(xi), 2)."""
-        data = np.zeros((len(xi), 2))
-        if reading == DEFLECTION:
-            data[:, 0] = self.units[0]
-            data[:, 1] = self.units[1] * lengths * (1 + xi) / 2
-        elif reading not in (CURVATURE, SHEAR):
-            data[:, 1] = self.units[1]
-        return data
 
     def _columns(self, family: _Family, index: NDArray[np.intp]) -> NDArray[np.intp]:
         """Coordinates of a strain on segments that have it, shape (len(index), order + 1)."""

@@ -8,9 +8,10 @@ import numpy as np
 from scipy.sparse import vstack
 
 from beal.discretisation.axial import axial_force, dead_axial_force, has_dead_loads
-from beal.discretisation.basis import CURVATURE, DEFLECTION, ROTATION, SHEAR, SLOPE, Array, Basis, Rows
+from beal.discretisation.basis import DEFLECTION, ROTATION, SHEAR, SLOPE, Array, Basis, Rows
 from beal.discretisation.polynomials import gauss
 from beal.discretisation.quadrature import Points, quadrature
+from beal.discretisation.strains import BENDING, STRAINS, Strain
 from beal.vehicle.stations import values
 from beal.vehicle.vehicle import Vehicle
 
@@ -78,7 +79,7 @@ def sample(vehicle: Vehicle, basis: Basis) -> Samples:
     mass = [integral(DEFLECTION, points.property("mass_per_length"))]
     if vehicle.turns_inertia:
         mass.append(integral(ROTATION, points.property("rotary_inertia_per_length")))
-    elastic = [integral(reading, points.finite(name)) for reading, name in _strains(vehicle)]
+    elastic = [integral(strain.reading, points.finite(strain.stiffness)) for strain in _strains(vehicle)]
     if vehicle.founded:
         elastic.append(integral(DEFLECTION, points.property("foundation_stiffness")))
     haringx = vehicle.shears and vehicle.thrust.axial_term == "haringx"
@@ -101,13 +102,12 @@ def losses(vehicle: Vehicle, basis: Basis) -> tuple[Integrals, Integrals]:
     points = quadrature(vehicle, basis.segments, basis.quadrature, basis.pieces)
     integral = partial(_compressed if basis.pieces else _at_points, basis, points)
     time = points.property("internal_damping")
-    inside = tuple(integral(reading, time * points.finite(name)) for reading, name in _strains(vehicle))
+    inside = tuple(integral(each.reading, time * points.finite(each.stiffness)) for each in _strains(vehicle))
     return inside, (integral(DEFLECTION, points.property("external_damping")),)
 
 
-def _strains(vehicle: Vehicle) -> list[tuple[int, str]]:
-    """The strains that the vehicle has, as readings, and the stiffnesses against them."""
-    return [(CURVATURE, "bending_stiffness"), *([(SHEAR, "shear_stiffness")] if vehicle.shears else [])]
+def _strains(vehicle: Vehicle) -> tuple[Strain, ...]:
+    return STRAINS if vehicle.shears else (BENDING,)
 
 
 def _distributed(vehicle: Vehicle, stations: Array) -> Array:

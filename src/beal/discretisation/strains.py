@@ -26,11 +26,14 @@ class Strain:
     ----------
     stiffness : str
         Name of the stage's stiffness against it.
+    reading : int
+        The strain itself.
     times : mapping of reading to int
         How often the strain is integrated from the segment's front for what it adds to a reading.
     """
 
     stiffness: Literal["bending_stiffness", "shear_stiffness"]
+    reading: int
     times: Mapping[int, int]
 
     def stiffnesses(self, vehicle: Vehicle, chain: Sequence[Segment]) -> Array:
@@ -39,9 +42,20 @@ class Strain:
         return np.asarray(of_stages[[segment.stage for segment in chain]])
 
 
-BENDING = Strain("bending_stiffness", {DEFLECTION: 2, SLOPE: 1, ROTATION: 1, CURVATURE: 0})
-SHEARING = Strain("shear_stiffness", {DEFLECTION: 1, SLOPE: 0, SHEAR: 0})
+BENDING = Strain("bending_stiffness", CURVATURE, {DEFLECTION: 2, SLOPE: 1, ROTATION: 1, CURVATURE: 0})
+SHEARING = Strain("shear_stiffness", SHEAR, {DEFLECTION: 1, SLOPE: 0, SHEAR: 0})
 STRAINS = (BENDING, SHEARING)
+
+
+def carried(reading: int, length: Array | float, xi: Array) -> Array:
+    """What a unit of the deflection and one of the rotation at a segment's front do behind it, shape (len(xi), 2)."""
+    rows = np.zeros((len(xi), 2))
+    if reading == DEFLECTION:
+        rows[:, 0] = 1.0
+        rows[:, 1] = length * (1 + xi) / 2
+    elif reading in (SLOPE, ROTATION):
+        rows[:, 1] = 1.0
+    return rows
 
 
 @dataclass(frozen=True)
