@@ -141,11 +141,12 @@ def test_gravity_presses_on_what_stands_below():
     assert discretise(column(nose="free", gravity=9.81)).dead is None
 
 
-def test_dead_loads_that_are_too_large_alone_are_refused():
+@pytest.mark.parametrize("search", [critical_thrust, critical_events])
+def test_dead_loads_that_are_too_large_alone_are_refused(search):
     with pytest.raises(ModelError, match="dead loads alone"):
-        critical_thrust(column(axial_load=[{"station": 1.0, "force": 21.0, "tangency": 1.0}]))
+        search(column(axial_load=[{"station": 1.0, "force": 21.0, "tangency": 1.0}]))
     with pytest.raises(ModelError, match="dead loads alone"):
-        critical_thrust(column(LARGE, axial_load=[{"station": 1.0, "force": 2.5}]))
+        search(column(LARGE, axial_load=[{"station": 1.0, "force": 2.5}]))
 
 
 def test_both_searches_agree_beside_dead_loads():

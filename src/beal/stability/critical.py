@@ -187,6 +187,11 @@ def critical_events(
     -------
     list of Event
         From one eigenvalue problem, so none is skipped for the size of a step.
+
+    Raises
+    ------
+    ModelError
+        If an option does not apply, or the dead loads alone make the vehicle unstable.
     """
     with one_thread():
         large = None
@@ -203,9 +208,12 @@ def critical_events(
         watched = _watched(large) if large else task.watched
         small = reduced(full, watched + COMPLETE_SPARE)
         if full.C is None:
+            check_dead_loads(small, task.limit)
             found = events(small, task.limit, watched)
         else:
-            found = damped_events(small, _without_damping(operators, watched), task.limit, watched)
+            undamped = _without_damping(operators, watched)
+            check_dead_loads(undamped, task.limit, small, highest_frequency(undamped, watched))
+            found = damped_events(small, undamped, task.limit, watched)
         if large:
             large.refine()
         polished = []
