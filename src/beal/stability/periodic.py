@@ -84,24 +84,27 @@ def pulsating_equations(operators: Operators, thrust: float, modes: int) -> Puls
     full = pencil(operators)
     A, B, S, square = _lowest(-full.stiffness(thrust), full.M, -full.K1, full.shift, full.rigid + modes)
     highest, damped = math.sqrt(square), full.C is not None
+    scale = math.sqrt(math.sqrt(full.shift) * highest)
     if damped:
-        F, G, H, highest = _lowest_damped(reduced(full, modes + SPARE, modes), thrust, 2 * len(A), highest)
+        F, G, H, highest = _lowest_damped(reduced(full, modes + SPARE, modes), thrust, 2 * len(A), highest, scale)
     else:
-        scale, one, none = math.sqrt(math.sqrt(full.shift) * highest), np.eye(len(A)), np.zeros_like(A)
+        one, none = np.eye(len(A)), np.zeros_like(A)
         F = np.block([[none, scale * one], [A / scale, none]])
         G, H = (np.block([[none, none], [change / scale, none]]) for change in (B, S))
     return PulsatingEquations(F, G, H, -A, -B, highest, full.rigid, damped)
 
 
-def _lowest_damped(full: Pencil, thrust: float, count: int, highest: float) -> tuple[Array, Array, Array, float]:
+def _lowest_damped(
+    full: Pencil, thrust: float, count: int, highest: float, scale: float
+) -> tuple[Array, Array, Array, float]:
     """F, G, H and the largest modulus, all roots up to the highest frequency kept, as of overdamped modes too."""
     M, C = full.M, np.asarray(full.C)
-    scale, one, none = math.sqrt(full.shift), np.eye(len(M)), np.zeros_like(M)
+    one, none = np.eye(len(M)), np.zeros_like(M)
     return _lowest(
         np.block([[none, scale * one], [-full.stiffness(thrust) / scale, -C]]),
         np.block([[one, none], [none, M]]),
         np.block([[none, none], [-full.K1 / scale, none]]),
-        scale,
+        math.sqrt(full.shift),
         count,
         highest,
     )
