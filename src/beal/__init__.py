@@ -54,7 +54,7 @@ if _typing.TYPE_CHECKING:
     from beal.study.pulsating import floquet_chart
     from beal.study.refined import RefinedMap, refined_map
     from beal.vehicle import catalog
-    from beal.vehicle.control import Control, Filter, Gain
+    from beal.vehicle.control import Actuator, Control, Engine, Filter, Gain
     from beal.vehicle.file import dumps, loads
     from beal.vehicle.parts import (
         AxialLoad,
@@ -77,6 +77,7 @@ if _typing.TYPE_CHECKING:
 __version__ = _version("beal")
 
 _HOMES = {
+    "Actuator": "beal.vehicle.control",
     "AmplitudeMap": "beal.motion",
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
@@ -89,6 +90,7 @@ _HOMES = {
     "Damping": "beal.vehicle.parts",
     "DistributedThrust": "beal.vehicle.parts",
     "ElasticEnd": "beal.vehicle.parts",
+    "Engine": "beal.vehicle.control",
     "Event": "beal.stability.complete",
     "Filter": "beal.vehicle.control",
     "Flight": "beal.study.flight",
@@ -152,6 +154,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Actuator",
     "AmplitudeMap",
     "AxialLoad",
     "BealError",
@@ -164,6 +167,7 @@ __all__ = [
     "Damping",
     "DistributedThrust",
     "ElasticEnd",
+    "Engine",
     "Event",
     "Filter",
     "Flight",

@@ -21,6 +21,7 @@ from beal import (
 )
 from beal.control.compensator import compensator
 from beal.vehicle.control import Filter
+from beal.vehicle.paths import value_at
 from beal.vehicle.separation import attached
 
 MODEL = """
@@ -72,7 +73,11 @@ def test_a_law_is_read_with_units_and_written_back(vehicle):
         ('"slope_rate"', '"heading"', r"control.gains\[1\].quantity: must be"),
         ("[1.0, 30.0, 900.0]", "[1.0, -30.0, 900.0]", r"control.filters\[0\]: is unstable: .*found 15"),
         ("[1.0, 30.0, 900.0]", "[30.0, 0.0]", r"control.filters\[0\]: is improper: .*found 2 over 1"),
-        ("[1.0, 30.0, 900.0]", "[1.0, 30.0, 0.0]", r"is unstable: every pole must have a negative real part, found 0"),
+        (
+            "[1.0, 30.0, 900.0]",
+            "[1.0, 0.0, 0.0]",
+            r"is unstable: every pole, but one at 0, must have a negative real part, found 0",
+        ),
         ("[1.0, 30.0, 900.0]", "[0.0, 30.0, 900.0]", "must begin with a coefficient other than 0"),
         ("[1.0, 30.0, 900.0]", "[nan]", "finite"),
         ("lag", "leg", "control.leg: unknown key; known here: station, lag"),
@@ -81,6 +86,42 @@ def test_a_law_is_read_with_units_and_written_back(vehicle):
 def test_what_is_wrong_with_a_law_is_told(old, new, message):
     with pytest.raises(ModelError, match=message):
         loads(MODEL.replace(old, new, 1))
+
+
+@pytest.mark.parametrize(
+    ("key", "message"),
+    [
+        ("engine = {mass = 100, arm = 1, inertia = 120}", "control: engine: .*relative degree 1"),
+        (
+            "engine = {mass = 100, arm = 2, inertia = 120}",
+            r"control.engine: inertia about the gimbal must be at least mass arm\^2, 400, found 120",
+        ),
+        ("actuator = {angular_frequency = 0, damping_ratio = 0.7}", "control.actuator.angular_frequency: must be"),
+        ('engine = {mass = "3 m", arm = 1, inertia = 3}', "control.engine.mass: "),
+    ],
+)
+def test_what_is_wrong_with_an_engine_is_told(key, message):
+    with pytest.raises(ModelError, match=message):
+        loads(MODEL + key)
+
+
+def test_an_engine_and_its_actuator_are_read_with_units_and_written_back():
+    keys = 'actuator = {angular_frequency = "5 Hz", damping_ratio = 0.7}\n'
+    keys += 'engine = {mass = "120 kg", arm = "40 cm", inertia = "25 kg*m^2"}'
+    found = loads(MODEL + keys)
+    assert found.control.actuator.angular_frequency == pytest.approx(31.4159265)
+    assert found.control.engine.moment == pytest.approx(48.0)
+    assert loads(dumps(found)) == found
+    assert value_at(found, "control.engine.arm") == pytest.approx(0.4)
+
+
+def test_an_integrator_needs_something_to_integrate():
+    steady = Filter(numerator=[1.0, 0.1], denominator=[1.0, 0.0])
+    with pytest.raises(ModelError, match="an integrator after rates alone"):
+        Control(gains=[Gain(sensor="imu", quantity="slope_rate", gain=1.0)], filters=[steady])
+    washout = Filter(numerator=[1.0, 0.0], denominator=[1.0, 2.0])
+    with pytest.raises(ModelError, match="one has a zero at 0"):
+        Control(gains=[Gain(sensor="imu", quantity="slope", gain=1.0)], filters=[steady, washout])
 
 
 def test_an_acceleration_that_its_own_force_changes_at_once_is_an_algebraic_loop():

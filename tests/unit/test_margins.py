@@ -3,7 +3,19 @@
 import numpy as np
 import pytest
 
-from beal import Control, Filter, Gain, ModelError, Sensor, catalog, closed_loop, stability_margins, state_space
+from beal import (
+    Actuator,
+    Control,
+    Engine,
+    Filter,
+    Gain,
+    ModelError,
+    Sensor,
+    catalog,
+    closed_loop,
+    stability_margins,
+    state_space,
+)
 from beal.control.compensator import compensator
 
 THRUST = 8.0
@@ -29,6 +41,33 @@ def test_every_margin_puts_a_root_on_the_axis(station):
         if margin.delay * margin.angular_frequency < 3.0:  # where the delay's approximant is as good
             roots = closed_loop(missile(delay=margin.delay, station=station), THRUST, modes=8).roots
             assert np.abs(roots - 1j * margin.angular_frequency).min() < 1e-5 * margin.angular_frequency
+
+
+def test_margins_with_an_integrator_an_accelerometer_and_an_engine_put_a_root_on_the_axis():
+    def heavy(factor=1.0, delay=0.0):
+        gains = {"slope": 0.6, "slope_rate": 0.2, "acceleration": 0.01}
+        law = Control(
+            gains=[Gain(sensor="imu", quantity=name, gain=factor * gain) for name, gain in gains.items()],
+            filters=[Filter(numerator=[1.0, 0.2], denominator=[1.0, 0.0])],
+            actuator=Actuator(angular_frequency=40.0, damping_ratio=0.7),
+            engine=Engine(mass=0.05, arm=0.1, inertia=6e-4),
+            delay=delay,
+            delay_order=6,
+        )
+        return missile().model_copy(update={"control": law})
+
+    found = stability_margins(heavy(), THRUST, modes=3)
+    assert len(found.gain) > 1
+    assert len(found.phase) > 3
+    cases = [(heavy(margin.factor), margin.angular_frequency) for margin in found.gain]
+    cases += [
+        (heavy(delay=margin.delay), margin.angular_frequency)
+        for margin in found.phase
+        if margin.delay * margin.angular_frequency < 3.0
+    ]
+    for vehicle, omega in cases:
+        roots = closed_loop(vehicle, THRUST, modes=8).roots
+        assert np.abs(roots - 1j * omega).min() < 1e-5 * omega
 
 
 def test_the_loop_is_where_the_margins_say_by_python_control():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from beal import Control, Filter, Gain, Sensor, catalog, closed_loop
+from beal import Actuator, Control, Engine, Filter, Gain, Sensor, catalog, closed_loop
 from beal.control.compensator import pade
 
 
@@ -39,6 +39,7 @@ def test_a_negative_gain_turns_the_vehicle_away():
     assert not closed_loop(missile(-0.5, 0.5), 0.01).stable
 
 
+HEAVY = Engine(mass=0.1, arm=0.2, inertia=0.006)
 LAWS = [
     {"lag": 0.02},
     {"lag": 0.05, "more": [Gain(sensor="imu", quantity="slope_rate", gain=0.2)]},
@@ -50,6 +51,15 @@ LAWS = [
             Filter(numerator=[0.1, 1.0], denominator=[0.01, 1.0]),
             Filter(numerator=[3.0], denominator=[0.5, 3.0]),
         ]
+    },
+    {"filters": [Filter(numerator=[1.0, 0.4], denominator=[1.0, 0.0])], "lag": 0.02},
+    {"filters": [Filter(numerator=[0.3], denominator=[2.0, 0.0])]},
+    {"actuator": Actuator(angular_frequency=30.0, damping_ratio=0.6), "delay": 0.01},
+    {"actuator": Actuator(angular_frequency=40.0, damping_ratio=0.5), "engine": HEAVY},
+    {
+        "actuator": Actuator(angular_frequency=50.0, damping_ratio=0.8),
+        "engine": HEAVY,
+        "more": [Gain(sensor="imu", quantity=name, gain=0.03) for name in ("slope_rate", "acceleration")],
     },
 ]
 
@@ -66,10 +76,17 @@ def test_every_root_solves_the_differential_equation(law):
 
 
 def unbalanced(vehicle, thrust, s):
-    """Determinant of y'' and y''' - P delta at the tail, of the two solutions that are free at the nose."""
+    """Determinant of what bends and pushes the tail, of the two solutions that are free at the nose."""
     control, station = vehicle.control, vehicle.sensors[0].station
     transfer = np.prod([np.polyval(part.numerator, s) / np.polyval(part.denominator, s) for part in control.filters])
     transfer /= 1 + control.lag * s
+    push, turn = thrust, 0.0  # force against y, and couple against y', for an angle of 1
+    if control.actuator:
+        relative = s / control.actuator.angular_frequency
+        transfer /= 1 + 2 * control.actuator.damping_ratio * relative + relative**2
+    if engine := control.engine:
+        push += engine.mass * engine.arm * s**2
+        turn += engine.inertia * s**2 + engine.mass * engine.arm * thrust  # of the unit mass
     if control.delay:
         numerator, denominator = pade(control.delay, control.delay_order)
         transfer *= np.polyval(numerator, s) / np.polyval(denominator, s)
@@ -84,5 +101,5 @@ def unbalanced(vehicle, thrust, s):
         end = solve_ivp(field, (station, 1.0), forward, **options).y[:, -1]
         reads = {"displacement": (0, 0), "rate": (0, 1), "acceleration": (0, 2), "slope": (1, 0), "slope_rate": (1, 1)}
         e = sum(part.gain * forward[reads[part.quantity][0]] * s ** reads[part.quantity][1] for part in control.gains)
-        rows.append([end[2], end[3] - thrust * transfer * e])
+        rows.append([end[2] + turn * transfer * e, end[3] - push * transfer * e])
     return np.linalg.det(np.array(rows))

@@ -31,9 +31,9 @@ class Compensator:
     D: float
 
     @property
-    def static_gain(self) -> float:
-        """delta over e at rest."""
-        return self.D - float((self.C @ np.linalg.solve(self.A, self.B)).sum()) if len(self.A) else self.D
+    def acceleration(self) -> tuple[Array, float]:
+        """Rows of delta'' = c z + d e, shape (1, k), where the relative degree is 2 or more."""
+        return self.C @ self.A @ self.A, float((self.C @ self.A @ self.B).sum())
 
 
 def compensator(control: Control) -> Compensator:
@@ -53,12 +53,14 @@ def compensator(control: Control) -> Compensator:
     >>> gain = Gain(sensor="imu", quantity="slope", gain=1.0)
     >>> slow = Filter(numerator=[6.0], denominator=[1.0, 2.0])
     >>> found = compensator(Control(lag=0.1, delay=0.2, gains=[gain], filters=[slow]))
-    >>> len(found.A), round(found.static_gain, 12)
-    (4, 3.0)
+    >>> len(found.A), found.D
+    (4, 0.0)
     """
     parts = [(part.proper_numerator, part.denominator) for part in control.filters]
     if control.lag:
         parts.append(((1.0,), (control.lag, 1.0)))
+    if control.actuator:
+        parts.append(((1.0,), control.actuator.denominator))
     if control.delay:
         parts.append(pade(control.delay, control.delay_order))
     nothing = Compensator(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), 1.0)
@@ -95,9 +97,10 @@ def pade(delay: float, order: int) -> tuple[tuple[float, ...], tuple[float, ...]
 
 
 def _realised(numerator: tuple[float, ...], denominator: tuple[float, ...]) -> Compensator:
-    """Companion form in a time that makes the lowest coefficient of the denominator 1."""
+    """Companion form in a time that makes the lowest coefficient of the denominator, 0 aside, 1."""
     order = len(denominator) - 1
-    speed = abs(denominator[-1] / denominator[0]) ** (1 / order) if order else 1.0
+    moving = order if denominator[-1] else order - 1  # poles other than an integrator's
+    speed = abs(denominator[moving] / denominator[0]) ** (1 / moving) if moving > 0 else 1.0
     powers = speed ** -np.arange(order + 1.0)
     a = np.array(denominator) / denominator[0] * powers
     b = np.array([0.0] * (order + 1 - len(numerator)) + [*numerator]) / denominator[0] * powers

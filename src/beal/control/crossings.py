@@ -66,11 +66,11 @@ def condensed(closed: Loop, modes: int) -> Loop:
     select = np.ix_(kept, kept)
     M, static = operators.M[select], operators.K0[select] + closed.speed**2 * operators.M[select]
     V = eigh(M, static)[1][:, ::-1][:, : int(np.sum(kept < operators.rigid)) + modes + SPARE]
-    for row in (closed.b, *closed.g):
+    for row in (closed.b, closed.w, *closed.g):
         deflection = np.linalg.solve(static, row[kept])
         rest = deflection - V @ (V.T @ static @ deflection)
         size = np.sqrt(rest @ static @ rest)
-        if size > INDEPENDENT * np.sqrt(deflection @ static @ deflection):
+        if size > INDEPENDENT * np.sqrt(deflection @ static @ deflection):  # never so of a row of zeros
             V = np.column_stack((V, rest / size))
     inertia, turn = np.linalg.eigh(V.T @ M @ V)
     V = V @ (turn / np.sqrt(inertia))
@@ -80,9 +80,8 @@ def condensed(closed: Loop, modes: int) -> Loop:
 
     small = {name: within(getattr(operators, name)) for name in ("M", "K0", "K1", "C", "dead")}
     small_operators = replace(operators, rigid=0, **small)
-    return replace(
-        closed, operators=small_operators, b=V.T @ closed.b[kept], g=closed.g[:, kept] @ V, kept=np.arange(V.shape[1])
-    )
+    b, w, g = closed.b[kept] @ V, closed.w[kept] @ V, closed.g[:, kept] @ V
+    return replace(closed, operators=small_operators, b=b, w=w, g=g, kept=np.arange(V.shape[1]))
 
 
 def first_order(closed: Loop) -> tuple[Array, Array]:

@@ -1,6 +1,8 @@
 """The vehicle with its control law as one first-order system, affine in the thrust.
 
-M q'' + C q' + K(P) q = - P b delta       b: deflection where the thrust turns, times the share of P there
+M q'' + C q' + K(P) q = - P b delta - w delta''
+                                          b: deflection where the thrust turns, times the share of P there
+                                          w: what the engine's inertia pushes as it turns
 e = g0 q + g1 q' + g2 q''                 sums of gain times what the sensors read
 z' = A z + B e,  delta = C z + D e        filters, actuator and delay; D = 0 where there is a g2
 """
@@ -12,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.control.compensator import Array, Compensator, compensator
+from beal.discretisation.axial import acceleration
+from beal.discretisation.basis import ROTATION, SLOPE
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.stability.pencil import UNCOUPLED, ComplexArray
@@ -38,7 +42,7 @@ class Loop:
     operators : Operators
         The vehicle without its control law.
     compensator : Compensator
-    b : ndarray, shape (n,)
+    b, w : ndarray, shape (n,)
     g : ndarray, shape (3, n)
         Rows g0, g1 and g2.
     kept : ndarray of int
@@ -48,6 +52,7 @@ class Loop:
     operators: Operators
     compensator: Compensator
     b: Array
+    w: Array
     g: Array
     kept: Indices
 
@@ -88,11 +93,15 @@ class Loop:
         M, K1 = (matrix[np.ix_(kept, kept)] for matrix in (self.operators.M, self.operators.K1))
         K0 = self.operators.stiffness(0.0)[np.ix_(kept, kept)]
         C = np.zeros_like(M) if self.operators.C is None else self.operators.C[np.ix_(kept, kept)]
-        b, (g0, g1, g2) = self.b[kept, None], self.g[:, None, kept]
+        b, w, (g0, g1, g2) = self.b[kept, None], self.w[kept, None], self.g[:, None, kept]
         n, k = len(kept), len(law.A)
         zero, none = np.zeros((n, n)), np.zeros((n, k))
-        E = np.block([[np.eye(n), zero, none], [zero, M, none], [none.T, -law.B @ g2, np.eye(k)]])
-        A0 = np.block([[zero, np.eye(n), none], [-K0, -C, none], [law.B @ g0, law.B @ g1, law.A]])
+        turning, at_once = law.acceleration
+        wg = [at_once * w @ g for g in (g0, g1, g2)]
+        E = np.block([[np.eye(n), zero, none], [zero, M + wg[2], none], [none.T, -law.B @ g2, np.eye(k)]])
+        A0 = np.block(
+            [[zero, np.eye(n), none], [-K0 - wg[0], -C - wg[1], -w @ turning], [law.B @ g0, law.B @ g1, law.A]]
+        )
         A1 = np.zeros_like(A0)
         A1[n : 2 * n] = np.hstack((-K1 - law.D * b @ g0, -law.D * b @ g1, -b @ law.C))
         return E, A0, A1
@@ -116,7 +125,7 @@ def loop(operators: Operators) -> Loop:
     """
     vehicle = operators.vehicle
     control = law_of(vehicle)
-    b = vehicle.thrust.scale * operators.shape(turning_station(vehicle, control))[0]
+    b, w = turned(operators)
     stations = {sensor.name: sensor.station for sensor in vehicle.sensors}
     g = np.zeros((3, len(operators.M)))
     for part in control.gains:
@@ -127,7 +136,39 @@ def loop(operators: Operators) -> Loop:
     for _ in range(operators.rigid):  # one motion may act on the others through another
         others = [motion for motion in range(operators.rigid) if motion not in kept]
         kept = np.sort(np.append(kept, [motion for motion in others if _acts(columns, motion, kept)])).astype(int)
-    return Loop(operators, compensator(control), b, g, kept)
+    return Loop(operators, compensator(control), b, w, g, kept)
+
+
+def turned(operators: Operators) -> tuple[Array, Array]:
+    """What the angle delta of the thrust and its second derivative do: b and w of a load - P b delta - w delta''.
+
+    The engine turns by phi = y' + delta about its gimbal at y. With S and J the first and the second moment of its mass
+    about there its kinetic energy is that of a locked one and (S y_t + J y'_t) delta_t + J delta_t^2/2. Under the axial
+    acceleration a it hangs like a pendulum, with the energy S a phi^2/2, of which S a y' delta is new; the weight of a
+    vehicle that is held, and what drag takes from a, are left out.
+
+    Parameters
+    ----------
+    operators : Operators
+
+    Returns
+    -------
+    b, w : ndarray, shape (n,)
+
+    References
+    ----------
+    Greensite, A. L., 1970. Analysis and Design of Space Vehicle Flight Control Systems. Spartan, chapter 2.
+    """
+    vehicle = operators.vehicle
+    control = vehicle.control
+    station = np.array([turning_station(vehicle, control)])
+    deflection = operators.shape(station)[0]
+    b = vehicle.thrust.scale * deflection
+    if control is None or control.engine is None:
+        return b, np.zeros_like(b)
+    engine = control.engine
+    turn = operators.basis.at(station, ROTATION if vehicle.thrust.along == "section" else SLOPE, "aft")[0]
+    return b + engine.moment * acceleration(vehicle) * turn, engine.moment * deflection + engine.inertia * turn
 
 
 def law_of(vehicle: Vehicle) -> Control:

@@ -1,14 +1,14 @@
 """Gain and phase margins: how far the loop, broken at the actuator, is from a root on the imaginary axis.
 
-With delta the angle that the actuator gives and -L delta the one that filters and actuator then ask for, 1 + L = 0 at
-the roots. Where the phase of L(i omega) is 180 degrees, L(s) - L(-s) vanishes; where its modulus is 1, L(s) L(-s) - 1
-does. Both are zeros of a state space and so eigenvalues: no grid of frequencies can miss one beside a lightly damped
-mode.
+With e the sum of gains times readings that goes into filters and actuator and -L e the one that then comes back,
+1 + L = 0 at the roots. Where the phase of L(i omega) is 180 degrees, L(s) - L(-s) vanishes; where its modulus is 1,
+L(s) L(-s) - 1 does. Both are zeros of a state space and so eigenvalues: no grid of frequencies can miss one beside a
+lightly damped mode.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import block_diag, eigvals, solve
@@ -146,16 +146,15 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
         if closed.static or not thrust:
             return Margins(thrust, (), ())
         small = condensed(closed, 3 * modes)
-        A, B, C = opened(small, thrust)
+        A, B, C, D = opened(small, thrust)
         frequencies, top = _frequencies(small, thrust, modes)
 
         def L(omega: float) -> complex:
-            return complex((C @ np.linalg.solve(1j * omega * np.eye(len(A)) - A, B)).item())
+            return complex((C @ np.linalg.solve(1j * omega * np.eye(len(A)) - A, B)).item() + D)
 
         both, series = block_diag(A, -A), np.block([[A, -B @ C], [np.zeros_like(A), -A]])
-        nothing = np.zeros_like(B)
         real = _zeros(both, np.vstack((B, B)), np.hstack((C, C)), 0.0)
-        unit = _zeros(series, np.vstack((nothing, B)), np.hstack((C, nothing.T)), -1.0)
+        unit = _zeros(series, np.vstack((D * B, B)), np.hstack((C, -D * C)), D**2 - 1)
         crossed = [(omega, L(omega).real) for omega in _settled(lambda w: L(w).imag, real, top)]
         met = [(omega, L(omega)) for omega in _settled(lambda w: abs(L(w)) - 1, unit, top)]
     gain = [GainMargin(-1 / value, omega, _nearest(frequencies, omega)) for omega, value in crossed if value < -LEAST]
@@ -163,8 +162,8 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
     return Margins(thrust, tuple(gain), tuple(phase))
 
 
-def opened(closed: Loop, thrust: float) -> tuple[Array, Array, Array]:
-    """A, B and C of L = C (s - A)^-1 B: from the angle of the thrust to minus the angle that is then asked for.
+def opened(closed: Loop, thrust: float) -> tuple[Array, Array, Array, float]:
+    """L = C (s - A)^-1 B + D: from what goes into filters and actuator to minus what the sensors then give back.
 
     Parameters
     ----------
@@ -176,13 +175,17 @@ def opened(closed: Loop, thrust: float) -> tuple[Array, Array, Array]:
     Returns
     -------
     A, B, C : ndarray, shapes (n, n), (n, 1), (1, n)
+    D : float
     """
-    E, loaded, _ = closed.affine
-    n, k, law = len(closed.kept), len(closed.compensator.A), closed.compensator
-    loaded[n : 2 * n, :n] -= thrust * closed.operators.K1
-    force = np.concatenate((np.zeros(n), -thrust * closed.b, np.zeros(k)))[:, None]
-    asked = -np.concatenate((law.D * closed.g[0], law.D * closed.g[1], law.C[0]))[None]
-    return np.asarray(solve(E, loaded)), np.asarray(solve(E, force)), asked
+    law, n = closed.compensator, len(closed.kept)
+    E, A = replace(closed, g=np.zeros_like(closed.g)).matrices(thrust)
+    force = -thrust * law.D * closed.b - law.acceleration[1] * closed.w
+    B = np.concatenate((np.zeros(n), force, law.B[:, 0]))[:, None]
+    A, B = np.asarray(solve(E, A)), np.asarray(solve(E, B))
+    g0, g1, g2 = closed.g
+    none = np.zeros(len(law.A))
+    C = -np.concatenate((g0, g1, none))[None] - g2 @ A[n : 2 * n]
+    return A, B, C, -float(g2 @ B[n : 2 * n, 0])
 
 
 def _frequencies(closed: Loop, thrust: float, modes: int) -> tuple[Array, float]:

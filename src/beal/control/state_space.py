@@ -8,7 +8,7 @@ import numpy as np
 
 from beal.control.closed import thrust_of
 from beal.control.compensator import Array
-from beal.control.loop import READINGS, turning_station
+from beal.control.loop import READINGS, turned
 from beal.discretisation import Operators, discretise
 from beal.errors import ModelError
 from beal.motion.reduction import ReducedEquations, reduce
@@ -18,7 +18,7 @@ from beal.vehicle.vehicle import Vehicle
 if TYPE_CHECKING:
     import control
 
-DELTA = "delta"
+DELTA, ACCELERATION = "delta", "delta_acceleration"
 SIGNALS = ("states", "inputs", "outputs")
 UNITS = {"displacement": "m", "rate": "m/s", "acceleration": "m/s^2", "slope": "rad", "slope_rate": "rad/s"}
 DEFAULT = ("displacement", "rate", "slope", "slope_rate")
@@ -93,8 +93,9 @@ def state_space(
     thrust : float, optional
         P, in N; by default the vehicle's nominal thrust.
     inputs : sequence of str or float
-        ``"delta"``, the angle by which the thrust turns at the station of the control law, or else where it acts; the
-        name of a force of the vehicle; or a station in m, for a transverse force there.
+        ``"delta"``, the angle by which the thrust turns at the station of the control law, or else where it acts;
+        ``"delta_acceleration"``, its second derivative, by which an engine's inertia pushes; the name of a force of the
+        vehicle; or a station in m, for a transverse force there.
     outputs : sequence of str, optional
         Such as ``"imu.slope_rate"``: a sensor's name and displacement, rate, acceleration, slope or slope_rate; by
         default all but accelerations at all sensors.
@@ -166,8 +167,11 @@ def _load(operators: Operators, name: str | float, thrust: float) -> tuple[Array
     """The load on the coordinates for a unit of an input, the input's name and unit."""
     vehicle = operators.vehicle
     if name == DELTA:
-        share = vehicle.thrust.scale * thrust
-        return -share * operators.shape(turning_station(vehicle, vehicle.control))[0], DELTA, "rad"
+        return -thrust * turned(operators)[0], name, "rad"
+    if name == ACCELERATION:
+        if vehicle.control is None or vehicle.control.engine is None:
+            raise ModelError(f"inputs: {name} needs an engine with inertia, control.engine, found none")
+        return -turned(operators)[1], name, "rad/s^2"
     if isinstance(name, str):
         stations = [force.station for force in vehicle.forces if force.name == name]
         if not stations:

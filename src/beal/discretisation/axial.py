@@ -22,7 +22,7 @@ def axial_force(vehicle: Vehicle, stations: Array) -> Array:
         applied = applied + np.where(stations >= at, vehicle.thrust.scale, 0.0)
     if vehicle.axial_force == "constant":
         return np.full(stations.shape, _total(vehicle)) - applied
-    return np.asarray(_mass_forward(vehicle, stations) * (_total(vehicle) / vehicle.mass) - applied)
+    return np.asarray(_mass_forward(vehicle, stations) * acceleration(vehicle) - applied)
 
 
 def axial_force_in_joints(vehicle: Vehicle) -> Array:
@@ -33,7 +33,12 @@ def axial_force_in_joints(vehicle: Vehicle) -> Array:
         applied = applied + np.where(stations > vehicle.thrust.station + SAME * vehicle.length, vehicle.thrust.scale, 0)
     if vehicle.axial_force == "constant":
         return np.full(stations.shape, _total(vehicle)) - applied
-    return np.asarray(_mass_forward_of_joints(vehicle) * (_total(vehicle) / vehicle.mass) - applied)
+    return np.asarray(_mass_forward_of_joints(vehicle) * acceleration(vehicle) - applied)
+
+
+def acceleration(vehicle: Vehicle) -> float:
+    """Along the axis, per thrust, in 1/kg; zero where a support bears the thrust."""
+    return _total(vehicle) / vehicle.mass if vehicle.axial_force == "inertia" else 0.0
 
 
 def has_dead_loads(vehicle: Vehicle) -> bool:

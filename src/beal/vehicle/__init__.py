@@ -1,7 +1,7 @@
 """What the user describes: the parts of a vehicle, the vehicle, its file format and a catalog."""
 
 from beal.vehicle import catalog
-from beal.vehicle.control import Control, Filter, Gain
+from beal.vehicle.control import Actuator, Control, Engine, Filter, Gain
 from beal.vehicle.file import dumps, loads
 from beal.vehicle.parts import (
     AxialLoad,
@@ -23,12 +23,14 @@ from beal.vehicle.timeline import Timeline
 from beal.vehicle.vehicle import Scales, Vehicle
 
 __all__ = [
+    "Actuator",
     "AxialLoad",
     "Chirp",
     "Control",
     "Damping",
     "DistributedThrust",
     "ElasticEnd",
+    "Engine",
     "Filter",
     "Force",
     "Gain",

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field, FiniteFloat, ValidationInfo, field_validator, model_validator
 
 from beal.vehicle.base import Misfit, Part, si
-from beal.vehicle.stations import NOT_NEGATIVE
+from beal.vehicle.stations import NOT_NEGATIVE, POSITIVE
 
 Quantity = Literal["displacement", "rate", "acceleration", "slope", "slope_rate"]
 UNITS: dict[str, str] = {  # of a gain, in radians for each unit of the quantity
@@ -62,10 +62,16 @@ class Filter(Part):
         if len(self.proper_numerator) > len(self.denominator):
             found = f"found {len(self.proper_numerator) - 1} over {len(self.denominator) - 1}"
             raise ValueError(f"is improper: the numerator's degree must be at most the denominator's, {found}")
-        poles = np.roots(self.denominator)
+        poles = np.roots(self.denominator[:-1] if self.integrates else self.denominator)
         if len(poles) and poles.real.max() >= 0:
-            raise ValueError(f"is unstable: every pole must have a negative real part, found {poles.real.max():.6g}")
+            expected = "every pole, but one at 0, must have a negative real part"
+            raise ValueError(f"is unstable: {expected}, found {poles.real.max():.6g}")
         return self
+
+    @property
+    def integrates(self) -> bool:
+        """Whether it has a pole at 0."""
+        return len(self.denominator) > 1 and not self.denominator[-1]
 
     @property
     def proper_numerator(self) -> tuple[float, ...]:
@@ -74,9 +80,63 @@ class Filter(Part):
         return self.numerator[zeros:]
 
     @property
-    def strictly_proper(self) -> bool:
-        """Whether nothing passes straight through."""
-        return len(self.proper_numerator) < len(self.denominator) or not any(self.numerator)
+    def relative_degree(self) -> int:
+        """By how much the denominator's degree exceeds the numerator's."""
+        return len(self.denominator) - len(self.proper_numerator)
+
+
+class Actuator(Part):
+    """An actuator of second order, 1/(1 + 2 zeta s/omega + s^2/omega^2).
+
+    Parameters
+    ----------
+    angular_frequency : float
+        omega, in rad/s.
+    damping_ratio : float
+        zeta.
+    """
+
+    angular_frequency: Annotated[FiniteFloat, si("rad/s"), POSITIVE]
+    damping_ratio: Annotated[FiniteFloat, si(""), POSITIVE]
+
+    @property
+    def denominator(self) -> tuple[float, float, float]:
+        """Coefficients of the powers of s, highest first."""
+        return self.angular_frequency**-2, 2 * self.damping_ratio / self.angular_frequency, 1.0
+
+
+class Engine(Part):
+    """The engine that the actuator turns about its gimbal, at the station of the control law.
+
+    Its mass is part of the vehicle's, as if the gimbal were locked; what is told here is what its turning adds.
+
+    Parameters
+    ----------
+    mass : float
+        In kg.
+    arm : float
+        Distance of its centre of mass aft of the gimbal, in m.
+    inertia : float
+        Moment of inertia about the gimbal, in kg m^2.
+    """
+
+    mass: Annotated[FiniteFloat, si("kg"), NOT_NEGATIVE]
+    arm: Annotated[FiniteFloat, si("m")]
+    inertia: Annotated[FiniteFloat, si("kg*m^2"), NOT_NEGATIVE]
+
+    @model_validator(mode="after")
+    def _is_a_body(self) -> "Engine":
+        least = self.mass * self.arm**2
+        if self.inertia < least * (1 - 1e-12):
+            raise ValueError(
+                f"inertia about the gimbal must be at least mass arm^2, {least:.6g}, found {self.inertia:g}"
+            )
+        return self
+
+    @property
+    def moment(self) -> float:
+        """First moment of its mass about the gimbal, in kg m."""
+        return self.mass * self.arm
 
 
 class Control(Part):
@@ -98,6 +158,10 @@ class Control(Part):
     gains : sequence of Gain
     filters : sequence of Filter
         In series.
+    actuator : Actuator, optional
+        Of second order, beside the lag.
+    engine : Engine, optional
+        Whose inertia pushes the vehicle as it turns ("tail wags dog"); massless unless given.
     """
 
     station: Annotated[FiniteFloat, si("m"), NOT_NEGATIVE] | None = None
@@ -106,15 +170,44 @@ class Control(Part):
     delay_order: int = Field(default=2, ge=1, le=HIGHEST_ORDER)
     gains: tuple[Gain, ...] = Field(min_length=1)
     filters: tuple[Filter, ...] = ()
+    actuator: Actuator | None = None
+    engine: Engine | None = None
+
+    @property
+    def relative_degree(self) -> int:
+        """Of all that is between the sensors and the angle: how often it integrates a sudden change."""
+        return sum(part.relative_degree for part in self.filters) + bool(self.lag) + 2 * bool(self.actuator)
 
     @model_validator(mode="after")
     def _has_no_algebraic_loop(self) -> "Control":
         measured = any(gain.quantity == "acceleration" and gain.gain for gain in self.gains)
-        if measured and not self.lag and not any(part.strictly_proper for part in self.filters):
+        if measured and not self.relative_degree:
             raise ValueError(
                 "must not be an algebraic loop, found an acceleration that the force it causes changes at once; "
                 "give the actuator a lag, or a filter whose numerator is of lower degree than its denominator"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _turns_its_engine_smoothly(self) -> "Control":
+        if self.engine and self.relative_degree < 2:
+            raise ValueError(
+                "engine: what has inertia cannot turn at once; give an actuator of second order, such as "
+                f"{{angular_frequency = 30, damping_ratio = 0.7}}, found relative degree {self.relative_degree}"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _integrates_what_is_there(self) -> "Control":
+        if not any(part.integrates for part in self.filters):
+            return self
+        if not any(gain.gain for gain in self.gains if gain.quantity in ("displacement", "slope")):
+            raise ValueError(
+                "filters: an integrator after rates alone takes back what they differentiate; feed back the slope or "
+                "the displacement instead"
+            )
+        if any(not part.numerator[-1] for part in self.filters):
+            raise ValueError("filters: one has a zero at 0, which cancels the other's integrator; leave out both")
         return self
 
 
