@@ -226,7 +226,7 @@ def test_the_largest_thrusts_of_the_page_on_the_control_loop_are_true():
 
 @pytest.mark.parametrize("block", blocks("python", CONTROL))
 def test_the_python_of_the_page_on_the_control_loop_prints_what_it_says(control_folder, block):
-    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    expected = "\n".join(re.findall(r"^# (.+)$", block, re.MULTILINE))
     assert run([sys.executable, "-c", block], control_folder).strip() == expected
 
 

@@ -2,6 +2,7 @@
 
 import pytest
 import scipy.io
+import xarray
 
 MODEL = """
 units = "nondimensional"
@@ -63,6 +64,26 @@ def test_the_root_locus_is_drawn_beside_the_answer(model, result_of, tmp_path, o
     assert found == result_of("control", model)
 
 
+@pytest.mark.parametrize("drawn", ["nyquist", "nichols"])
+def test_the_open_loop_is_drawn(written, result_of, tmp_path, drawn):
+    damped = MODEL.replace("bending_stiffness = 1.0", "bending_stiffness = 1.0\ninternal_damping = 0.001")
+    result_of("control", written(damped), "--figure", "open.svg", "--draw", drawn)
+    assert "<svg" in (tmp_path / "open.svg").read_text(encoding="utf-8")
+
+
+def test_a_map_over_thrust_and_a_station_is_told_drawn_and_written(model, result_of, beal_here, tmp_path):
+    options = ["--map", "--over", "sensor[0].station", "--from", 0, "--to", 1, "--points", 3, "--max-thrust", 60]
+    found = result_of("control", model, *options, "-o", "map.zarr", "--figure", "map.png")
+    assert found["values"] == [0.0, 0.5, 1.0]
+    assert [row[0] for row in found["border"]] == pytest.approx([16.936004, 25.638181377, 25.638181377])
+    assert (tmp_path / "map.png").is_file()
+    with xarray.open_zarr(tmp_path / "map.zarr") as chart:
+        assert chart.stable.shape == (3, 3)
+    assert "stable; up to P = 25.6382 with sensor[0].station = 0.5" in beal_here("control", model, *options).stdout
+    again = beal_here("control", model, *options, "-o", "map.zarr")
+    assert (again.returncode, "exists already" in again.stderr) == (2, True)
+
+
 def test_margins_and_the_largest_thrust_are_told(written, result_of, beal_here):
     damped = MODEL.replace("bending_stiffness = 1.0", "bending_stiffness = 1.0\ninternal_damping = 0.001")
     model = written(damped.replace("[control]", "[control]\nlag = 0.01"))
@@ -81,7 +102,17 @@ def test_margins_and_the_largest_thrust_are_told(written, result_of, beal_here):
         (("nominal = 10.0", ""), [], "thrust: give one"),
         (("", ""), ["--thrust", "-3"], "thrust: must be finite and not negative, found -3"),
         (("", ""), ["--modes", "0"], "modes: must be at least 1"),
-        (("", ""), ["--over", "gain"], "--over, --to: say what a figure shows"),
+        (("", ""), ["--over", "gain"], "--over, --to, --draw: say what a figure shows"),
+        (("", ""), ["--draw", "bode"], "--draw: must be one of locus, nyquist, nichols, found 'bode'"),
+        (("", ""), ["--from", "1"], "--from, --max-thrust: are of a map; give --map"),
+        (("", ""), ["--map"], "--over: the thrust is one axis of a map"),
+        (("", ""), ["--map", "--over", "gain", "--to", "2"], "--from, --to: give both ends of the map along gain"),
+        (("", ""), ["--map", "--over", "gain", "--from", "0", "--to", "2", "--points", "1"], "--points: must be at"),
+        (
+            ("nominal = 10.0", ""),
+            ["--map", "--over", "gain", "--from", "0", "--to", "2"],
+            "--max-thrust: give a positive",
+        ),
         (("", ""), ["--figure", "a.png", "--over", "joint[0].shear_stiffness"], "joint[0].shear_stiffness"),
         (
             ("", ""),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, eigh
 
+import beal
 from beal import PointMass, Stage, Vehicle, discretise
 from beal.control.loop import roots
 
@@ -57,29 +58,33 @@ def closed_roots(count):
     """Roots in the lowest modes, with the nozzle and its servo as the deck writes them."""
     M, K, y, theta = structure()
     W, shapes = modes(M, K, count)
-    y1, theta1 = y[AFT] @ shapes, theta[AFT] @ shapes
-    sensed, tilt = (y[SENSOR] - OFFSET * theta[SENSOR]) @ shapes, theta[SENSOR] @ shapes
-    n = count + 2  # with gamma and the motion that large rotations add, y_theta
+    readings = (row @ shapes for row in (y[AFT], theta[AFT], y[SENSOR] - OFFSET * theta[SENSOR], theta[SENSOR]))
+    return guided(np.eye(count), np.diag(np.where(W < 1e-3, 0.0, W)), *readings, turned_apart=True)
+
+
+def guided(M, K, y1, theta1, sensed, tilt, turned_apart):
+    """Roots of a structure with the nozzle and its servo; what the turned thrust moves may stand apart."""
+    count = len(M)
+    n = count + 1 + turned_apart  # with gamma and the motion that large rotations add, y_theta
     P0, P1, P2 = (np.zeros((n, n)) for _ in range(3))
     g, r = count, count + 1
-    P0[:count, :count], P2[:count, :count] = np.diag(np.where(W < 1e-3, 0.0, W)), np.eye(count)
-    # the nozzle pulls at y1 and turns theta1 by its servo's moment T
+    P0[:count, :count], P2[:count, :count] = K, M
+    # the nozzle pulls at y1 and turns theta1 by its servo's moment T = 500 ((16 + 28 s) e_y + (15 + 7 s) e_theta
+    # - (100 + 14.14 s) gamma)
     P2[:count, :count] += NOZZLE * np.outer(y1, y1) - ARM * NOZZLE * np.outer(y1, theta1)
     P0[:count, g] -= THRUST * y1
     P2[:count, g] -= ARM * NOZZLE * y1
-    moment0, moment1 = (
-        np.zeros(n),
-        np.zeros(n),
-    )  # T = 500 ((16 + 28 s) e_y + (15 + 7 s) e_theta - (100 + 14.14 s) gamma)
+    moment0, moment1 = np.zeros(n), np.zeros(n)
     moment0[:count], moment1[:count] = 500 * (16 * sensed + 1500 * tilt), 500 * (28 * sensed + 700 * tilt)
-    moment0[r], moment1[r] = 500 * 16, 500 * 28
+    moment0[r:], moment1[r:] = 500 * 16, 500 * 28
     moment0[g], moment1[g] = -500 * 100, -500 * 14.14
     P0[:count] += np.outer(theta1, moment0)
     P1[:count] += np.outer(theta1, moment1)
     P2[g, g], P2[g, :count] = INERTIA, INERTIA * theta1 - ARM * NOZZLE * y1
     P0[g] -= moment0
     P1[g] -= moment1
-    P2[r, r], P0[r, :count] = MASS, -THRUST * theta1
+    if turned_apart:
+        P2[r, r], P0[r, :count] = MASS, -THRUST * theta1
     zero, one = np.zeros((n, n)), np.eye(n)
     return roots(np.block([[one, zero], [zero, P2]]), np.block([[zero, one], [-P0, -P1]]), 1.0)
 
@@ -97,3 +102,40 @@ def test_the_closed_loop_has_the_roots_printed(count, printed):
     found = closed_roots(count)
     for root in printed:
         assert np.abs(found - root).min() < 5e-6 * abs(root)  # five digits; NASTRAN worked in single precision
+
+
+def stick():
+    """The same rocket as three uniform beams."""
+    sections = [(50.0, 100.0, 52e9), (100.0, 200.0, 208e9), (150.0, 400.0, 624e9)]
+    stages = [Stage(length=length, mass_per_length=m, bending_stiffness=EI) for length, m, EI in sections]
+    return Vehicle(stages=stages, joints=[{}] * 2)
+
+
+@pytest.mark.parametrize(("basis", "order", "tolerance"), [("legendre", 14, 1e-6), ("hermite", 16, 1e-4)])
+@pytest.mark.parametrize(
+    ("thrust", "hertz", "expected"),
+    [  # the first three from another program, see verification
+        (0.0, [1.496964, 4.017792, 7.011363], [-1.275314, -0.441654 + 0.836412j, 0.401724 + 4.425926j]),
+        (THRUST, [1.489819, 4.010846, 7.002772], [-1.327613, -0.452559 + 0.825421j, 0.415428 + 4.317638j]),
+    ],
+)
+def test_axial_force_and_follower_thrust_change_little(basis, order, tolerance, thrust, hertz, expected):
+    operators = discretise(stick(), basis=basis, order=order)
+    found = beal.spectrum(operators, thrust, 3).angular_frequency / (2 * np.pi)
+    np.testing.assert_allclose(found, hertz, rtol=max(tolerance / 10, 4e-7))
+    aft, sensor = 300.0, 300.0 - GRIDS[SENSOR]
+    y1, y = operators.shape([aft, sensor])
+    theta1, tilt = -operators.shape([aft, sensor], 1)
+    K = operators.K0 + thrust * operators.K1
+    s = guided(operators.M, K, y1, theta1, y - OFFSET * tilt, tilt, turned_apart=not thrust)
+    for root in expected:
+        assert np.abs(s - root).min() < tolerance * abs(root)
+
+
+def test_the_rocket_diverges_at_a_hundred_times_its_thrust():
+    found = beal.critical_thrust(stick())
+    assert (found.kind, found.modes) == ("divergence", (1, 1))
+    assert found.critical_thrust / THRUST == pytest.approx(105.341, abs=1e-3)
+    assert beal.critical_thrust(stick(), basis="hermite").critical_thrust == pytest.approx(
+        found.critical_thrust, rel=1e-6
+    )

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.figures import control_figure, named, new_figure
+from beal.cli.control_map import show_map
+from beal.cli.figures import control_figure, named, new_figure, open_loop_figure
 from beal.cli.options import AsJson, Figure, Model, Table
 from beal.cli.output import emit, new_path, new_result, note, quantity, show_table
 from beal.errors import ModelError
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from beal.control import ClosedLoop, ControlledThrust, Margins
     from beal.vehicle.vehicle import Vehicle
 
+DRAWINGS = ("locus", "nyquist", "nichols")
 STATE_SPACE = (".mat", ".nc")
 DRAWN, POINTS, BEYOND = 3, 201, 2.0  # modes and points of a figure, and how many times thrust or gains it reaches
 
@@ -28,7 +30,18 @@ def control(
     over: Annotated[
         str, typer.Option("--over", metavar="NAME", help="What varies in the figure: thrust, gain, or a path.")
     ] = "thrust",
+    start: Annotated[float | None, typer.Option("--from", metavar="X", help="Of a map: from there.")] = None,
     to: Annotated[float | None, typer.Option("--to", metavar="X", help="Up to there; of a gain, a factor.")] = None,
+    mapped: Annotated[
+        bool, typer.Option("--map", help="Where the loop is stable, over the thrust and --over.")
+    ] = False,
+    max_thrust: Annotated[
+        float | None, typer.Option("--max-thrust", metavar="P", help="Of a map; else twice the thrust.")
+    ] = None,
+    points: Annotated[int, typer.Option("--points", metavar="N", help="Of a map, along each axis.")] = 61,
+    drawn: Annotated[
+        str, typer.Option("--draw", metavar="WHAT", help="What the figure shows: locus, nyquist or nichols.")
+    ] = "locus",
     output: Table = None,
     figure: Figure = None,
     plant: Annotated[
@@ -38,25 +51,36 @@ def control(
     as_json: AsJson = False,
 ) -> None:
     """Roots and margins of the vehicle with its control law closed."""
-    from beal.control import closed_loop, control_locus, controlled_thrust, stability_margins, state_space
+    from beal.control import closed_loop, control_locus, controlled_thrust, open_loop, stability_margins, state_space
     from beal.interop import results
     from beal.interop.files import load, write_result
 
     if plant and plant.suffix.lower() not in STATE_SPACE:
         known = " or ".join(STATE_SPACE)
         raise ModelError(f"--state-space: must end with {known}, found {plant.suffix or 'no ending'}", str(plant))
-    if not figure and (over != "thrust" or to is not None):
-        raise ModelError("--over, --to: say what a figure shows; give --figure FILE")
+    if drawn not in DRAWINGS:
+        raise ModelError(f"--draw: must be one of {', '.join(DRAWINGS)}, found {drawn!r}")
     vehicle = load(model)
+    if mapped:
+        limits = (start, to, max_thrust)
+        show_map(vehicle, over, limits, points, thrust, min(modes, DRAWN), output, figure, as_json)
+        return
+    if start is not None or max_thrust is not None:
+        raise ModelError("--from, --max-thrust: are of a map; give --map")
+    if not figure and (over != "thrust" or to is not None or drawn != "locus"):
+        raise ModelError("--over, --to, --draw: say what a figure shows; give --figure FILE")
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         found = closed_loop(vehicle, thrust, modes)
         margins = stability_margins(vehicle, thrust, modes)
         critical = controlled_thrust(vehicle, modes=modes) if largest else None
         write(_columns(found), lambda: results.closed_loop(found))
-        if figure:
+        if figure and drawn == "locus":
             values = _values(vehicle, over, to, found.thrust)
             locus = control_locus(vehicle, over, values, found.thrust, min(modes, DRAWN))
             draw(lambda: control_figure(locus, vehicle.units == "nondimensional"))
+        elif figure:
+            loop = open_loop(vehicle, thrust, modes)
+            draw(lambda: open_loop_figure(loop, margins, drawn))
     if plant:
         with new_path(plant) as part:
             matrices = state_space(vehicle, thrust, modes=modes)

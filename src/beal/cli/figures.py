@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from xarray import Dataset
 
-    from beal.control import ControlLocus
+    from beal.control import ControlLocus, Margins, StateSpace
     from beal.discretisation.operators import Operators
     from beal.motion import Quantity, Response
     from beal.stability.complete import Event
@@ -148,6 +148,36 @@ def control_figure(locus: "ControlLocus", nondimensional: bool) -> "Figure":
 
     figure = Figure(figsize=(WIDE, 1.3 * HIGH), layout="constrained")
     plot.control_locus(locus, figure.subplots(), nondimensional)
+    return figure
+
+
+def open_loop_figure(loop: "StateSpace", margins: "Margins", drawn: str) -> "Figure":
+    """The open loop by Nyquist or Nichols."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(WIDE, 1.5 * HIGH), layout="constrained")
+    draw = plot.nyquist if drawn == "nyquist" else plot.nichols
+    draw(loop, figure.subplots(), margins)
+    return figure
+
+
+def control_map_figure(chart: "Dataset", vehicle: "Vehicle") -> "Figure":
+    """Where the closed loop is stable; over the station of a sensor the vehicle lies beneath."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(1.2 * WIDE, 1.3 * HIGH), layout="constrained")
+    if not str(chart.stable.dims[0]).endswith(".station"):
+        plot.control_map(chart, figure.subplots())
+        return figure
+    figure.set_figheight(1.8 * HIGH)
+    upper, lower = figure.subplots(2, 1, height_ratios=(3, 1))
+    plot.control_map(chart, upper)
+    plot.vehicle(vehicle, lower)
+    upper.set_xlim(lower.get_xlim())  # the sensor beneath its stations
     return figure
 
 

@@ -91,9 +91,9 @@ def control_locus(
     given = None if over == THRUST else thrust_of(vehicle, thrust)
 
     def roots(value: float) -> ComplexArray:
-        varied = _varied(vehicle, over, value)
-        closed = next(refinements(varied, 2 * modes))
-        return lowest_roots(closed, thrust_of(varied, value if given is None else given), modes + SPARE)
+        changed = varied(vehicle, over, value)
+        closed = next(refinements(changed, 2 * modes))
+        return lowest_roots(closed, thrust_of(changed, value if given is None else given), modes + SPARE)
 
     with one_thread():
         s = roots(float(points[0]))
@@ -107,7 +107,8 @@ def control_locus(
     return ControlLocus(over, points, followed[:, kept])
 
 
-def _varied(vehicle: Vehicle, over: str, value: float) -> Vehicle:
+def varied(vehicle: Vehicle, over: str, value: float) -> Vehicle:
+    """The vehicle with a thrust (which leaves it as it is), a factor on all gains or the quantity of a path."""
     if over == THRUST:
         return vehicle
     if over != GAIN:

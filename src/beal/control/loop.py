@@ -66,10 +66,15 @@ class Loop:
         """Whether nothing dissipates and nothing delays: roots come in pairs s, -s."""
         return not len(self.compensator.A) and not self.g[1].any() and self.operators.C is None
 
-    @cached_property
+    @property
     def zero_roots(self) -> int:
-        """Roots that are zero at every thrust: two of a motion that only follows, one of a drift that rates resist."""
-        count = 2 * (len(self.operators.M) - len(self.kept))
+        """Roots that are zero at every thrust: two of a motion that only follows, and those of the others."""
+        return 2 * (len(self.operators.M) - len(self.kept)) + self.resting
+
+    @cached_property
+    def resting(self) -> int:
+        """Zero roots of the motions that are kept: one of a drift that rates alone resist, two of a free one."""
+        count = 0
         for motion in self.kept[self.kept < self.operators.rigid]:
             stiff, viscous = _columns(self.operators, self.g[:1]), _columns(self.operators, self.g[1:2], rates=True)
             if not _acts(stiff, int(motion), self.kept):

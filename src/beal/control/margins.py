@@ -8,15 +8,15 @@ lightly damped mode.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import block_diag, eigvals, solve
+from scipy.linalg import block_diag, eigvals
 
-from beal.control.closed import refinements, thrust_of
+from beal.control.closed import thrust_of
 from beal.control.compensator import Array
-from beal.control.crossings import condensed
-from beal.control.loop import Loop, law_of, loop
+from beal.control.loop import Loop, law_of
+from beal.control.opened import broken, opened
 from beal.discretisation import Operators
 from beal.errors import ModelError
 from beal.stability.threads import one_thread
@@ -142,10 +142,9 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
     if modes < 1:
         raise ModelError(f"modes: must be at least 1, found {modes}")
     with one_thread():
-        closed = next(refinements(vehicle, 2 * modes)) if isinstance(model, Vehicle) else loop(model)
-        if closed.static or not thrust:
+        small = broken(model, modes)
+        if small.static or not thrust:
             return Margins(thrust, (), ())
-        small = condensed(closed, 3 * modes)
         A, B, C, D = opened(small, thrust)
         frequencies, top = _frequencies(small, thrust, modes)
 
@@ -160,32 +159,6 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
     gain = [GainMargin(-1 / value, omega, _nearest(frequencies, omega)) for omega, value in crossed if value < -LEAST]
     phase = [PhaseMargin(math.degrees(np.angle(-value)), omega, _nearest(frequencies, omega)) for omega, value in met]
     return Margins(thrust, tuple(gain), tuple(phase))
-
-
-def opened(closed: Loop, thrust: float) -> tuple[Array, Array, Array, float]:
-    """L = C (s - A)^-1 B + D: from what goes into filters and actuator to minus what the sensors then give back.
-
-    Parameters
-    ----------
-    closed : Loop
-        Condensed.
-    thrust : float
-        In N.
-
-    Returns
-    -------
-    A, B, C : ndarray, shapes (n, n), (n, 1), (1, n)
-    D : float
-    """
-    law, n = closed.compensator, len(closed.kept)
-    E, A = replace(closed, g=np.zeros_like(closed.g)).matrices(thrust)
-    force = -thrust * law.D * closed.b - law.acceleration[1] * closed.w
-    B = np.concatenate((np.zeros(n), force, law.B[:, 0]))[:, None]
-    A, B = np.asarray(solve(E, A)), np.asarray(solve(E, B))
-    g0, g1, g2 = closed.g
-    none = np.zeros(len(law.A))
-    C = -np.concatenate((g0, g1, none))[None] - g2 @ A[n : 2 * n]
-    return A, B, C, -float(g2 @ B[n : 2 * n, 0])
 
 
 def _frequencies(closed: Loop, thrust: float, modes: int) -> tuple[Array, float]:

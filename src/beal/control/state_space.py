@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -64,14 +64,25 @@ class StateSpace:
         ModelError
             If python-control is not installed.
         """
-        try:
-            import control
-        except ModuleNotFoundError as error:
-            if not str(error.name).startswith("control"):
-                raise
-            raise ModelError("python-control is needed and not installed; install beal[control]") from None
         names = {what: [name.replace(".", "_") for name in getattr(self, what)] for what in SIGNALS}
-        return control.ss(self.A, self.B, self.C, self.D, **names)
+        return python_control().ss(self.A, self.B, self.C, self.D, **names)
+
+
+def python_control() -> Any:
+    """The package control.
+
+    Raises
+    ------
+    ModelError
+        If it is not installed.
+    """
+    try:
+        import control
+    except ModuleNotFoundError as error:
+        if not str(error.name).startswith("control"):
+            raise
+        raise ModelError("python-control is needed and not installed; install beal[control]") from None
+    return control
 
 
 def state_space(

@@ -12,7 +12,7 @@ from beal.control.closed import GROWING, lowest_roots, refinements
 from beal.control.crossings import condensed, crossings, first_order
 from beal.control.loop import Loop, law_of
 from beal.errors import ConvergenceError, ModelError
-from beal.stability.critical import critical_thrust
+from beal.stability.critical import critical_events, critical_thrust
 from beal.stability.limit import default_limit
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
@@ -110,14 +110,14 @@ def controlled_thrust(vehicle: Vehicle, max_thrust: float | None = None, modes: 
         first, *finer = islice(refinements(vehicle, modes), 3)
         if first.static:
             return _undamped([first, *finer], limit)
-        start = _first(first, limit, modes)
+        start = next((thrust for thrust, grows in changes(first, limit, modes) if grows), None)
         if start is None:
             return ControlledThrust(None, "stable", None, None, limit, modes)
         if not start:
-            s = _leading(first, _candidates(first, limit, modes)[0] / 2, modes)
+            s = leading(first, _candidates(first, limit, modes)[0] / 2, modes)
             return ControlledThrust(0.0, "flutter" if s.imag else "divergence", abs(s.imag), 0.0, limit, modes)
         thrusts: list[float] = []
-        s = _leading(first, start, modes)
+        s = leading(first, start, modes)
         for closed in (first, *finer):
             thrust, s = _polished(closed, thrusts[-1] if thrusts else start, s, modes)
             thrusts.append(thrust)
@@ -138,23 +138,44 @@ def _undamped(loops: list[Loop], limit: float) -> ControlledThrust:
     return ControlledThrust(fine.critical_thrust, fine.kind, fine.angular_frequency, error, limit, fine.watched_modes)
 
 
-def _candidates(closed: Loop, limit: float, modes: int) -> list[float]:
-    return [*crossings(*first_order(condensed(closed, modes)), limit).tolist(), limit]
+def changes(closed: Loop, limit: float, modes: int) -> Iterator[tuple[float, bool]]:
+    """Thrusts at which the loop becomes unstable or stable again.
 
+    Parameters
+    ----------
+    closed : Loop
+    limit : float
+        Thrust to search to, in N.
+    modes : int
+        Number of elastic modes that are watched.
 
-def _first(closed: Loop, limit: float, modes: int) -> float | None:
-    """The thrust at which the first root begins to grow; 0 if one does from the start, None if none does."""
-    before = 0.0
-    for low, high in _intervals(_candidates(closed, limit, modes)):
+    Yields
+    ------
+    thrust : float
+        In ascending order; 0 where a root grows under the first thrust already.
+    grows : bool
+        Whether a root grows beyond it.
+    """
+    before, grew = 0.0, False
+    ends = _candidates(closed, limit, modes)
+    for low, high in zip([0.0, *ends], ends, strict=False):
         middle = (low + high) / 2
-        if _growth(closed, middle, modes) > 0:
-            return float(brentq(lambda P: _growth(closed, P, modes), before, middle, rtol=1e-12)) if before else 0.0
-        before = middle
-    return limit if _growth(closed, limit, modes) > 0 else None
+        grows = _growth(closed, middle, modes) > 0
+        if grows != grew:
+            yield (
+                float(brentq(lambda P: _growth(closed, P, modes), before, middle, rtol=1e-12)) if before else 0.0,
+                grows,
+            )
+        before, grew = middle, grows
+    if (_growth(closed, limit, modes) > 0) != grew:
+        yield limit, not grew
 
 
-def _intervals(ends: list[float]) -> Iterator[tuple[float, float]]:
-    return zip([0.0, *ends], ends, strict=False)
+def _candidates(closed: Loop, limit: float, modes: int) -> list[float]:
+    """Thrusts between two of which the number of growing roots is the same, the limit last."""
+    if closed.static:
+        return [*(event.thrust for event in critical_events(closed.closed(), limit)), limit]
+    return [*crossings(*first_order(condensed(closed, modes)), limit).tolist(), limit]
 
 
 def _growth(closed: Loop, thrust: float, modes: int) -> float:
@@ -163,7 +184,7 @@ def _growth(closed: Loop, thrust: float, modes: int) -> float:
     return float(np.max(s.real - GROWING * np.abs(s)))
 
 
-def _leading(closed: Loop, thrust: float, modes: int) -> complex:
+def leading(closed: Loop, thrust: float, modes: int) -> complex:
     """The root that grows fastest or decays most slowly, Im s >= 0."""
     s = lowest_roots(closed, thrust, modes)[closed.zero_roots :]
     found = complex(s[np.argmax(s.real)])

@@ -1,11 +1,12 @@
 """Results to matplotlib axes: each function draws one result and computes nothing."""
 
-from beal.plot.control import control_locus
+from beal.plot.control import control_locus, control_map
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
 from beal.plot.histories import amplitude_map, response, trajectory
 from beal.plot.maps import stability_map
+from beal.plot.opened import nichols, nyquist
 from beal.plot.pulsating import floquet_chart
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
@@ -14,11 +15,14 @@ from beal.plot.transient import pseudospectrum, transient_growth
 __all__ = [
     "amplitude_map",
     "control_locus",
+    "control_map",
     "deflections",
     "flight",
     "floquet_chart",
     "growth_rates",
     "mode_shapes",
+    "nichols",
+    "nyquist",
     "pseudospectrum",
     "response",
     "root_locus",

@@ -1,10 +1,11 @@
-"""The paths of the closed loop's roots in the complex plane."""
+"""The paths of the closed loop's roots in the complex plane, and where it is stable."""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.collections import LineCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import ListedColormap, Normalize
 
 from beal.control import ControlLocus
 from beal.plot.curves import UNSTABLE, WORD
@@ -12,8 +13,10 @@ from beal.plot.style import BLACK, axes, style, thrust_label, thrust_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from xarray import Dataset
 
 ROOM = 0.08  # beside the paths, over their extent
+STRONG = 0.1  # damping ratio from which on the shade is the same
 LEAST = 0.25  # width of the unstable half, over that of the whole
 
 
@@ -63,6 +66,44 @@ def control_locus(locus: ControlLocus, ax: "Axes | None" = None, nondimensional:
         ax.set_ylabel(imaginary if nondimensional else r"imaginary part $\omega$ (rad/s)")
         label = thrust_label(locus.values[-1], nondimensional) if of_thrust else _name(locus.over)
         ax.figure.colorbar(pieces, ax=ax, label=label)
+        return ax
+
+
+def control_map(chart: "Dataset", ax: "Axes | None" = None) -> "Axes":
+    """Draw where the closed loop is stable, shaded by the damping ratio of its least damped root.
+
+    Parameters
+    ----------
+    chart : Dataset
+        From `beal.control_map`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With a colour bar. The borders are those that were solved for, not those of the grid; unstable ground is tinted.
+    """
+    over = str(chart.stable.dims[0])
+    nondimensional = chart.attrs["units"] != "SI"
+    values, thrust = chart[over].values, chart.thrust.values
+    factor, _ = thrust_unit(float(thrust[-1]), nondimensional)
+    with style():
+        ax = axes(ax)
+        ratio = chart.damping_ratio.where(chart.stable).values
+        strong = min(STRONG, float(np.nanmax(ratio, initial=0.0)) or STRONG)
+        shades = ListedColormap(colormaps["Blues"](np.linspace(0.25, 1.0, 256)))  # the palest still unlike the ground
+        mesh = ax.pcolormesh(values, thrust / factor, ratio.T, cmap=shades, vmin=0.0, vmax=strong, rasterized=True)
+        for border in chart.border.values.T:  # dots, too: an island may be one value wide
+            ax.plot(values, border / factor, color=BLACK, linewidth=1.4, marker="o", markersize=1.6, zorder=3)
+        ax.set(xlim=(values[0], values[-1]), ylim=(thrust[0] / factor, thrust[-1] / factor))
+        ax.axvspan(values[0], values[-1], **UNSTABLE)
+        if values[0] > 0 and np.ptp(np.diff(np.log(values))) < np.ptp(np.diff(values)) / values[-1]:
+            ax.set_xscale("log")
+        ax.set_xlabel(_name(over))
+        ax.set_ylabel(thrust_label(float(thrust[-1]), nondimensional))
+        ax.figure.colorbar(mesh, ax=ax, label="damping ratio of the least damped root", extend="max")
+        if not chart.stable.values.all():
+            ax.text(0.98, 0.97, "unstable", transform=ax.transAxes, ha="right", va="top", **WORD)
         return ax
 
 
