@@ -16,7 +16,9 @@ def curve(
     model: Model,
     to: Annotated[float, typer.Option("--to", metavar="P", help="Last thrust.", show_default=False)],
     points: Annotated[int, typer.Option("--points", metavar="N", help="Number of thrusts, from 0.")] = 41,
-    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 4,
+    modes: Annotated[
+        int | None, typer.Option("--modes", metavar="N", help="Number of elastic modes; 4 unless there are fewer.")
+    ] = None,
     formulation: Formulation = "objective",
     output: Table = None,
     figure: Figure = None,
@@ -41,7 +43,7 @@ def curve(
         data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
         emit({**data, "units": vehicle.units, "file": str(output) if output else None, **named(figure)})
     elif output:
-        note(f"{points} thrusts and {modes} modes written to {output}")
+        note(f"{points} thrusts and {found.angular_frequency.shape[1]} modes written to {output}")
     else:
         units = (" [N]", " [rad/s]", " [1/s]") if vehicle.units == "SI" else ("", "", "")
         print("thrust{}; of each mode the angular frequency{} and the growth rate{}".format(*units))

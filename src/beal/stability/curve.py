@@ -20,6 +20,7 @@ SPARE = 3  # roots followed beyond those asked for, so that a mode that rises ou
 LIKENESS = 0.6  # below this likeness of the shapes a step is halved
 SLOWER = 1e-2  # what decides between two real roots that are equally near
 HALVINGS = 6
+MODES = 4  # followed unless told otherwise
 ORDER = 14
 
 
@@ -55,7 +56,7 @@ def thrust_curve(
     vehicle: Vehicle | Operators,
     to: float | None = None,
     points: int = 201,
-    modes: int = 4,
+    modes: int | None = None,
     formulation: Formulation = "objective",
 ) -> ThrustCurve:
     """Frequency and growth rate of the lowest modes from zero thrust up.
@@ -71,8 +72,8 @@ def thrust_curve(
         Last thrust, in N; by default that to which `critical_thrust` searches.
     points : int
         Number of thrusts, evenly spaced from 0.
-    modes : int
-        Number of elastic modes, the lowest at zero thrust.
+    modes : int, optional
+        Number of elastic modes, the lowest at zero thrust; by default 4, or all that rigid stages have.
     formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
 
     Returns
@@ -100,6 +101,7 @@ def thrust_curve(
         operators = discretise(operators, formulation, order=None if formulation in RITZ else ORDER)
     full = pencil(operators)
     elastic = len(full.M) - full.rigid
+    modes = min(MODES, elastic) if modes is None else modes
     if not 1 <= modes <= elastic:
         raise ModelError(f"modes: must lie between 1 and {elastic} for this discretisation, found {modes}")
     followed = min(modes + full.rigid + SPARE, len(full.M))

@@ -198,6 +198,11 @@ class Vehicle(Part):
         return any(mean(stage.shear_stiffness) < math.inf for stage in self.stages)
 
     @cached_property
+    def deforms(self) -> bool:
+        """Whether any stage bends or shears; else there are no more modes than springs."""
+        return self.shears or any(mean(stage.bending_stiffness) < math.inf for stage in self.stages)
+
+    @cached_property
     def turns_inertia(self) -> bool:
         """Whether any stage has rotary inertia."""
         return any(mean(stage.rotary_inertia_per_length) for stage in self.stages)
