@@ -101,15 +101,44 @@ def _titled(name: str, units: dict[str, str]) -> str:
     return f"{title} [{units[name]}]" if name in units else title
 
 
+def _example(name: str) -> str:
+    return (files("beal.vehicle.catalog") / "models" / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def _show_examples(output: Path | None, as_json: bool) -> None:
+    """Each with the comment that heads it."""
+    if output:
+        raise ModelError("--output: holds one model; give its NAME")
+    told = {name: _example(name).partition("\n")[0].removeprefix("# ") for name in EXAMPLES}
+    if as_json:
+        emit({"examples": [{"name": name, "description": text} for name, text in told.items()]})
+    else:
+        for name, text in told.items():
+            print(f"{name:<{max(map(len, EXAMPLES))}}  {text}")
+
+
+def _named(incomplete: str) -> list[str]:
+    """Examples whose name begins so, for the shell's completion."""
+    return [name for name in EXAMPLES if name.startswith(incomplete)]
+
+
 def example(
-    name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(EXAMPLES)}.", show_default=False)],
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME", help=f"{', '.join(EXAMPLES)}; without one they are listed.", autocompletion=_named
+        ),
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write it there.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Print a commented model file of the catalog, or write it to a new file."""
+    if name is None:
+        _show_examples(output, as_json)
+        return
     if name not in EXAMPLES:
         raise ModelError(f"NAME: must be one of {', '.join(EXAMPLES)}, found {name!r}")
-    text = (files("beal.vehicle.catalog") / "models" / f"{name}.toml").read_text(encoding="utf-8")
+    text = _example(name)
     if output:
         if output.exists():
             raise ModelError("exists already; give the name of a new file", str(output))

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from beal.discretisation.build import RITZ, Formulation, discretise
@@ -18,6 +19,7 @@ from beal.vehicle.vehicle import Vehicle
 
 SPARE = 3  # roots followed beyond those asked for, so that a mode that rises out of them is not lost
 LIKENESS = 0.6  # below this likeness of the shapes a step is halved
+GROWING = 1e-6  # growth rate over the first frequency above which a root counts as unstable
 SLOWER = 1e-2  # what decides between two real roots that are equally near
 HALVINGS = 6
 MODES = 4  # followed unless told otherwise
@@ -42,6 +44,13 @@ class ThrustCurve:
     angular_frequency: Array
     growth_rate: Array
     formulation: str
+
+    @property
+    def unstable(self) -> NDArray[np.bool_]:
+        """Where modes grow, shape (points, modes); without damping also where they decay, as halves of a pair."""
+        least = GROWING * self.angular_frequency[0].min()
+        damped = (abs(self.growth_rate[0]) > least).any()
+        return np.asarray((self.growth_rate if damped else abs(self.growth_rate)) > least)
 
 
 @dataclass(frozen=True)
