@@ -9,7 +9,8 @@ import typer
 from beal.cli.drawn import Plot, show_curve, wanted
 from beal.cli.figures import curve_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model
-from beal.cli.output import emit, quantity, say, show_table
+from beal.cli.output import emit, say, show_table
+from beal.report.numbers import quantity
 
 if TYPE_CHECKING:
     from beal.stability.complete import Event

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from beal.cli.canvas import Canvas
-from beal.cli.output import console, prefixed, shows
+from beal.cli.output import console, shows
 from beal.errors import ModelError
+from beal.report.numbers import prefixed
 
 if TYPE_CHECKING:
     from rich.text import Text

@@ -8,8 +8,9 @@ import typer
 
 from beal.cli.figures import modes_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model
-from beal.cli.output import digits, emit, new_result, note, show_table
+from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
+from beal.report.numbers import digits
 
 if TYPE_CHECKING:
     import xarray

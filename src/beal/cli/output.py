@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from beal.errors import ModelError
+from beal.report.numbers import cell
 
 if TYPE_CHECKING:
     import xarray
     from rich.console import Console
 
-MOST_DIGITS = 9
 STYLES = {  # of words in a table
     "agrees": "green",
     "differs": "bold red",
@@ -83,47 +83,6 @@ def show_table(columns: Sequence[str], rows: Sequence[Sequence[object]], title: 
     for row in rows:
         table.add_row(*(Text(text, STYLES.get(text, "")) for text in map(cell, row)))
     console().print(table)
-
-
-def cell(value: object) -> str:
-    """A value as a table shows it."""
-    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def digits(value: float, error: float | None) -> str:
-    """The number with as many digits as its error supports.
-
-    Examples
-    --------
-    >>> digits(106.43723149, 1e-9), digits(106.43723149, 0.004), digits(106.4, None)
-    ('106.437231', '106.44', '106.4')
-    """
-    if error is None or value == 0:
-        return f"{value:.6g}"
-    known = MOST_DIGITS
-    if error > 0:
-        known = math.floor(math.log10(abs(value))) - math.ceil(math.log10(2 * error)) + 1
-    return f"{value:#.{min(max(known, 1), MOST_DIGITS)}g}".rstrip(".")
-
-
-def quantity(value: float, unit: str, error: float | None = None) -> str:
-    """The number with its digits and a unit prefix, k or M.
-
-    Examples
-    --------
-    >>> quantity(106437.25, "N"), quantity(106.25, "")
-    ('106.437 kN', '106.25')
-    """
-    if not unit:
-        return digits(value, error)
-    factor, unit = prefixed(value, unit)
-    return f"{digits(value / factor, None if error is None else error / factor)} {unit}"
-
-
-def prefixed(value: float, unit: str) -> tuple[float, str]:
-    """The size of the unit in which a value is told, and its name with the prefix k or M."""
-    factor, prefix = next(((f, p) for f, p in ((1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
-    return factor, f"{prefix}{unit}"
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from scipy.optimize import linear_sum_assignment
 from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.damped_roots import NEUTRAL, damped_modes
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Array, ComplexArray, pencil
@@ -27,7 +29,7 @@ ORDER = 14
 
 
 @dataclass(frozen=True)
-class ThrustCurve:
+class ThrustCurve(Shown):
     """Tracked modes over thrust.
 
     Parameters
@@ -38,12 +40,14 @@ class ThrustCurve:
         In rad/s and 1/s. Of a coalesced pair one branch grows and the other decays; of a mode that damping or
         divergence splits into two real roots the one that decays more slowly is followed.
     formulation : str
+    units : {"SI", "nondimensional"}
     """
 
     thrust: Array
     angular_frequency: Array
     growth_rate: Array
     formulation: str
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def unstable(self) -> NDArray[np.bool_]:
@@ -135,7 +139,7 @@ def thrust_curve(
             state = _follow(state, float(thrust), roots, full.M, HALVINGS)
             history.append(state.s[columns])
     s = np.array(history)
-    return ThrustCurve(thrusts, np.abs(s.imag), np.asarray(s.real), formulation)
+    return ThrustCurve(thrusts, np.abs(s.imag), np.asarray(s.real), formulation, operators.vehicle.units)
 
 
 def _follow(state: _Roots, thrust: float, roots: Callable[[float], _Roots], M: Array, halvings: int) -> _Roots:
