@@ -12,6 +12,7 @@ MODULES = sorted((SOURCE / "beal").rglob("*.py"))
 ROOMS = [
     "errors",
     "units",
+    "shown",
     "vehicle",
     "discretisation",
     "stability",
@@ -22,6 +23,7 @@ ROOMS = [
     "verification",
     "plot",
     "report",
+    "notebook",
     "paper",
     "cli",
 ]

@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "pulsating")
-CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, PULSATING = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating")
+CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -92,6 +92,7 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", MOTION, re.MULTILINE)) == {"toml", "console", "python", "text"}
+    assert set(re.findall(r"^```(\w+)$", NOTEBOOK, re.MULTILINE)) == {"python"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 
@@ -228,6 +229,12 @@ def test_the_largest_thrusts_of_the_page_on_the_control_loop_are_true():
 def test_the_python_of_the_page_on_the_control_loop_prints_what_it_says(control_folder, block):
     expected = "\n".join(re.findall(r"^# (.+)$", block, re.MULTILINE))
     assert run([sys.executable, "-c", block], control_folder).strip() == expected
+
+
+@pytest.mark.parametrize("block", blocks("python", NOTEBOOK))
+def test_the_python_of_the_page_on_notebooks_prints_what_it_says(tmp_path, block):
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], tmp_path).strip() == expected
 
 
 @pytest.fixture

@@ -7,6 +7,8 @@ import typing as _typing
 from importlib import import_module as _import_module
 from importlib.metadata import version as _version
 
+from beal.shown import painted_by as _painted_by
+
 if _typing.TYPE_CHECKING:
     from beal import plot
     from beal.control import (
@@ -235,6 +237,8 @@ __all__ = [
     "vanishing_damping_limit",
     "verify",
 ]
+
+_painted_by(lambda result: _import_module("beal.notebook.page").html(result))
 
 
 def __getattr__(name: str) -> object:

@@ -13,12 +13,13 @@ import numpy as np
 import pytest
 import xarray
 
-from beal.cli.output import digits, emit, new_file, quantity
+from beal.cli.output import emit, new_file
 from beal.discretisation import FORMULATIONS
 from beal.errors import ModelError
 from beal.interop.files import load
+from beal.report.numbers import digits, quantity
 from beal.vehicle import Thrust, catalog
-from beal.vehicle.file import loads
+from beal.vehicle.file import dumps, loads
 
 COMMANDS = [
     "check",
@@ -126,6 +127,15 @@ def test_high_modes_are_converged(result_of, written):
     errors = [abs(found["angular_frequency"][n - 1] - w) for n, w in zip(range(12, 41), exact, strict=True)]
     assert max(errors) < 1e-5
     assert all(e < 1e-5 for e in found["error_estimate"])
+
+
+@pytest.mark.parametrize(
+    ("command", "modes"), [(["modes"], 2), (["curve", "--to", "3"], 2), (["critical", "--figure", "z.png"], None)]
+)
+def test_of_a_vehicle_with_few_modes_all_are_shown(result_of, written, command, modes):
+    name, *options = command
+    found = result_of(name, written(dumps(catalog.ziegler())), *options)
+    assert modes is None or np.shape(found["angular_frequency"])[-1] == modes
 
 
 def test_frequencies_that_do_not_converge_are_not_given(beal_here, written, monkeypatch):

@@ -38,7 +38,6 @@ app = typer.Typer(
     help="Critical thrust of flexible launch vehicles: where they fail, how, and what joint keeps them safe.",
     epilog="Start with: beal example tsto -o tsto.toml, then beal critical tsto.toml",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 for name, (command, line) in COMMANDS.items():

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from beal.cli.drawn import Plot, show_curve, wanted
 from beal.cli.figures import curve_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model
-from beal.cli.output import emit, quantity, show_table
+from beal.cli.output import emit, say, show_table
+from beal.report.numbers import quantity
 
 if TYPE_CHECKING:
     from beal.stability.complete import Event
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
     from beal.vehicle.vehicle import Vehicle
 
 DRAWN, POINTS = 1.3, 151  # thrusts of a figure: over the critical one, and their number
-FEWEST, MOST = 4, 14  # modes in a figure
+MOST = 14  # modes in a figure
 GROWTH = ("thrust", "growth", "instant", "lower_bound", "upper_bound")
 BESIDE = {"undamped": "without its damping", "vanishing_damping": "in the limit of vanishing damping"}
 
@@ -33,6 +35,7 @@ def critical(
         float | None,
         typer.Option("--growth", metavar="P", help="Also the largest transient growth of energy under that thrust."),
     ] = None,
+    plot: Plot = None,
     figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
@@ -44,6 +47,7 @@ def critical(
     from beal.stability.vanishing import vanishing_damping_limit
 
     vehicle = load(model)
+    drawn = wanted(plot, as_json)
     with new_figure(figure, as_json) as draw:
         found = critical_thrust(
             vehicle,
@@ -78,7 +82,7 @@ def critical(
             }
         )
         return
-    print(_verdict(vehicle, found))
+    say(_verdict(vehicle, found), _style(vehicle, found))
     for name, other in beside.items():
         verdict = _instability(vehicle, other.elastic or other) if other else "its dead loads alone make it unstable"
         print(f"{BESIDE[name]}: {verdict}")
@@ -90,6 +94,8 @@ def critical(
     print(_searched(vehicle, found))
     if convention := _convention(vehicle, formulation):
         print(convention)
+    if drawn:
+        show_curve(vehicle, _curve(vehicle, found, size, every), found, events)
     if every:
         _show_events(vehicle, events)
 
@@ -97,15 +103,20 @@ def critical(
 def _curve(vehicle: "Vehicle", found: "CriticalThrust", size: int | None, every: bool) -> "ThrustCurve":
     """The modes that meet, and those below, to a little beyond the critical thrust or over all that was searched."""
     from beal.discretisation.build import discretise
-    from beal.stability.curve import thrust_curve
+    from beal.stability.curve import MODES, thrust_curve
+    from beal.stability.large import Reduction, is_large
 
     shown = found.elastic or found
     to = found.searched_to if every or not shown.critical_thrust else DRAWN * shown.critical_thrust
-    count = min(max(FEWEST, *(shown.modes or (0,))), size or MOST)
+    highest = max(shown.modes or (0,))
+    count = min(highest, size or MOST) if highest > MODES else None
     formulation: Any = found.formulation
-    return thrust_curve(
-        discretise(vehicle, formulation, order=size) if size else vehicle, to, POINTS, count, formulation
-    )
+    model: Any = vehicle
+    if size:
+        model = discretise(vehicle, formulation, order=size)
+    elif is_large(vehicle):
+        model = Reduction(vehicle, formulation).operators  # exact enough to be drawn
+    return thrust_curve(model, to, POINTS, count, formulation)
 
 
 def _relative(vehicle: "Vehicle", found: "CriticalThrust") -> dict[str, float | None]:
@@ -133,6 +144,11 @@ def _verdict(vehicle: "Vehicle", found: "CriticalThrust") -> str:
         elastic = _instability(vehicle, found.elastic)
         return f"tumbles as a rigid body under any thrust; its elastic modes alone: {elastic}"
     return f"{vehicle.title}: {_instability(vehicle, found)}" if vehicle.title else _instability(vehicle, found)
+
+
+def _style(vehicle: "Vehicle", found: "CriticalThrust") -> str:
+    margin = _relative(vehicle, found)["margin"]
+    return "bold green" if found.kind == "stable" else "bold red" if margin is not None and margin < 0 else "bold"
 
 
 def _instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from beal.cli.drawn import Plot, show_curve, wanted
 from beal.cli.figures import curve_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model, Table
 from beal.cli.output import emit, new_result, note, show_table
@@ -16,9 +17,12 @@ def curve(
     model: Model,
     to: Annotated[float, typer.Option("--to", metavar="P", help="Last thrust.", show_default=False)],
     points: Annotated[int, typer.Option("--points", metavar="N", help="Number of thrusts, from 0.")] = 41,
-    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Number of elastic modes.")] = 4,
+    modes: Annotated[
+        int | None, typer.Option("--modes", metavar="N", help="Number of elastic modes; 4 unless there are fewer.")
+    ] = None,
     formulation: Formulation = "objective",
     output: Table = None,
+    plot: Plot = None,
     figure: Figure = None,
     as_json: AsJson = False,
 ) -> None:
@@ -29,6 +33,7 @@ def curve(
     from beal.stability.curve import thrust_curve
 
     vehicle = load(model)
+    drawn = wanted(plot, as_json)
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         found = thrust_curve(vehicle, to, points, modes, formulation)  # type: ignore[arg-type]  # checked there
         columns = _columns(found)
@@ -37,11 +42,13 @@ def curve(
             first = critical_thrust(vehicle, to, formulation)  # type: ignore[arg-type]
             events = critical_events(vehicle, to, formulation)  # type: ignore[arg-type]
             draw(lambda: curve_figure(vehicle, found, first, events))
+    if drawn:
+        show_curve(vehicle, found)
     if as_json:
         data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
         emit({**data, "units": vehicle.units, "file": str(output) if output else None, **named(figure)})
     elif output:
-        note(f"{points} thrusts and {modes} modes written to {output}")
+        note(f"{points} thrusts and {found.angular_frequency.shape[1]} modes written to {output}")
     else:
         units = (" [N]", " [rad/s]", " [1/s]") if vehicle.units == "SI" else ("", "", "")
         print("thrust{}; of each mode the angular frequency{} and the growth rate{}".format(*units))

@@ -8,7 +8,8 @@ import typer
 
 from beal.cli.figures import flight_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Model
-from beal.cli.output import cell, emit, new_file, note, progress_bar, show_table, write_columns
+from beal.cli.output import emit, new_file, note, progress_bar, show_table, write_columns
+from beal.report.numbers import cell
 
 if TYPE_CHECKING:
     from beal.study.flight import Flight, FlightState

@@ -8,37 +8,11 @@ import typer
 
 from beal.cli.figures import named, new_figure, vehicle_figure
 from beal.cli.options import AsJson, Figure, Model
-from beal.cli.output import cell, emit, new_file, show_table
+from beal.cli.output import emit, new_file, show_table
 from beal.errors import ModelError
+from beal.report.numbers import cell
+from beal.report.parts import titled, told
 
-UNITS = {
-    "length": "m",
-    "mass": "kg",
-    "centre_of_mass": "m",
-    "moment_of_inertia": "kg m^2",
-    "nominal_thrust": "N",
-    "thrust_station": "m",
-    "gravity": "m/s^2",
-    "force": "N",
-    "value": "1/m",
-    "from": "m",
-    "to": "m",
-    "station": "m",
-    "surface": "m",
-    "mass_per_length": "kg/m",
-    "bending_stiffness": "N m^2",
-    "foundation_stiffness": "N/m^2",
-    "rotary_inertia": "kg m^2",
-    "rotary_inertia_per_length": "kg m",
-    "rotational_stiffness": "N m/rad",
-    "shear_stiffness": "N/m",
-    "reference_length": "m",
-    "reference_mass_per_length": "kg/m",
-    "reference_bending_stiffness": "N m^2",
-    "thrust_scale": "N",
-    "time_scale": "s",
-}
-OF_STAGES = {"shear_stiffness": "N"}  # where joints have the same name for another quantity
 EXAMPLES = ("beck", "beal", "pflueger", "tsto", "generic_small_launcher")
 
 
@@ -66,6 +40,8 @@ def check(model: Model, figure: Figure = None, as_json: AsJson = False) -> None:
 
 
 def _show(resolved: dict[str, Any]) -> None:
+    from beal.vehicle.summary import UNITS
+
     groups = resolved.pop("nondimensional")
     units = UNITS if resolved["units"] == "SI" else {}
     _show_part(resolved, units)
@@ -75,41 +51,58 @@ def _show(resolved: dict[str, Any]) -> None:
 
 
 def _show_part(part: dict[str, Any], units: dict[str, str]) -> None:
+    from beal.vehicle.summary import OF_STAGES
+
     for name, value in part.items():
         if isinstance(value, list):
             if value:
                 known = units | OF_STAGES if units and name == "stages" else units
-                columns = [_titled(key, known) for key in value[0]]
-                show_table(columns, [[_text(item) for item in row.values()] for row in value], name.replace("_", " "))
+                columns = [titled(key, known) for key in value[0]]
+                show_table(columns, [[told(item) for item in row.values()] for row in value], name.replace("_", " "))
         elif value not in (None, ""):
             ends = isinstance(value, dict)
-            text = ", ".join(f"{key} {_text(item)}" for key, item in value.items()) if ends else cell(value)
+            text = ", ".join(f"{key} {told(item)}" for key, item in value.items()) if ends else cell(value)
             print(f"{name.replace('_', ' ')}: {text} {units.get(name, '')}".rstrip())
 
 
-def _text(value: Any) -> Any:
-    """A table by its range, the springs of an end by their names."""
-    if not isinstance(value, dict):
-        return value
-    if "x" in value:
-        return f"{cell(min(value['value']))} to {cell(max(value['value']))}"
-    return " and ".join(f"{key} {cell(item)}" for key, item in value.items())
+def _example(name: str) -> str:
+    return (files("beal.vehicle.catalog") / "models" / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def _titled(name: str, units: dict[str, str]) -> str:
-    title = name.replace("_", " ")
-    return f"{title} [{units[name]}]" if name in units else title
+def _show_examples(output: Path | None, as_json: bool) -> None:
+    """Each with the comment that heads it."""
+    if output:
+        raise ModelError("--output: holds one model; give its NAME")
+    told = {name: _example(name).partition("\n")[0].removeprefix("# ") for name in EXAMPLES}
+    if as_json:
+        emit({"examples": [{"name": name, "description": text} for name, text in told.items()]})
+    else:
+        for name, text in told.items():
+            print(f"{name:<{max(map(len, EXAMPLES))}}  {text}")
+
+
+def _named(incomplete: str) -> list[str]:
+    """Examples whose name begins so, for the shell's completion."""
+    return [name for name in EXAMPLES if name.startswith(incomplete)]
 
 
 def example(
-    name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(EXAMPLES)}.", show_default=False)],
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME", help=f"{', '.join(EXAMPLES)}; without one they are listed.", autocompletion=_named
+        ),
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write it there.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Print a commented model file of the catalog, or write it to a new file."""
+    if name is None:
+        _show_examples(output, as_json)
+        return
     if name not in EXAMPLES:
         raise ModelError(f"NAME: must be one of {', '.join(EXAMPLES)}, found {name!r}")
-    text = (files("beal.vehicle.catalog") / "models" / f"{name}.toml").read_text(encoding="utf-8")
+    text = _example(name)
     if output:
         if output.exists():
             raise ModelError("exists already; give the name of a new file", str(output))

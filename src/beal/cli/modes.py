@@ -8,8 +8,9 @@ import typer
 
 from beal.cli.figures import modes_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model
-from beal.cli.output import digits, emit, new_result, note, show_table
+from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
+from beal.report.numbers import digits
 
 if TYPE_CHECKING:
     import xarray
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
 
 def modes(
     model: Model,
-    count: Annotated[int, typer.Option("--count", metavar="N", help="Number of elastic modes.")] = 6,
+    count: Annotated[
+        int | None, typer.Option("--count", metavar="N", help="Number of elastic modes; 6 unless there are fewer.")
+    ] = None,
     thrust: Annotated[float | None, typer.Option("--thrust", metavar="P", help="Thrust; 0 unless given.")] = None,
     loaded: Annotated[bool, typer.Option("--loaded", help="Under the model's nominal thrust.")] = False,
     formulation: Formulation = "objective",
@@ -42,7 +45,7 @@ def modes(
         found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
         if output or figure:
             operators = discretise(vehicle, formulation)  # type: ignore[arg-type]  # checked before
-            shapes = spectrum(operators, found.thrust, count)
+            shapes = spectrum(operators, found.thrust, len(found.W))
             draw(lambda: modes_figure(shapes, operators))
             if output:
                 dataset = mode_shapes(shapes, operators)

@@ -11,11 +11,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from beal.errors import ModelError
+from beal.report.numbers import cell
 
 if TYPE_CHECKING:
     import xarray
+    from rich.console import Console
 
-MOST_DIGITS = 9
+STYLES = {  # of words in a table
+    "agrees": "green",
+    "differs": "bold red",
+    "destabilises": "red",
+    "restabilises": "green",
+    "tumbles": "red",
+    "not converged": "bold red",
+    "invalid": "bold red",
+}
 
 
 def emit(data: dict[str, Any]) -> None:
@@ -38,55 +48,41 @@ def note(message: str) -> None:
     print(f"beal: {message}", file=sys.stderr)
 
 
+def console() -> "Console":
+    """Standard output, with colours where it is a terminal and NO_COLOR is not set."""
+    from rich.console import Console
+
+    out = Console(markup=False, highlight=False, emoji=False)
+    if not out.is_terminal:
+        out.width = 160  # a pipe has no width: do not fold
+    return out
+
+
+def shows(letters: str) -> bool:
+    """Whether the encoding of standard output has all the letters."""
+    try:
+        letters.encode(sys.stdout.encoding)
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def say(text: str, style: str = "") -> None:
+    """Print a line, on a terminal in a style."""
+    console().print(text, style=style, soft_wrap=True)
+
+
 def show_table(columns: Sequence[str], rows: Sequence[Sequence[object]], title: str = "") -> None:
     """Print a table; numbers with six significant digits, nothing where there is none."""
-    from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(title=title or None, title_justify="left")
     for column in columns:
         table.add_column(column, justify="left" if column == "name" else "right")
     for row in rows:
-        table.add_row(*map(cell, row))
-    console = Console(markup=False, highlight=False, emoji=False)
-    if not console.is_terminal:
-        console.width = 160  # a pipe has no width: do not fold
-    console.print(table)
-
-
-def cell(value: object) -> str:
-    """A value as a table shows it."""
-    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def digits(value: float, error: float | None) -> str:
-    """The number with as many digits as its error supports.
-
-    Examples
-    --------
-    >>> digits(106.43723149, 1e-9), digits(106.43723149, 0.004), digits(106.4, None)
-    ('106.437231', '106.44', '106.4')
-    """
-    if error is None or value == 0:
-        return f"{value:.6g}"
-    known = MOST_DIGITS
-    if error > 0:
-        known = math.floor(math.log10(abs(value))) - math.ceil(math.log10(2 * error)) + 1
-    return f"{value:#.{min(max(known, 1), MOST_DIGITS)}g}".rstrip(".")
-
-
-def quantity(value: float, unit: str, error: float | None = None) -> str:
-    """The number with its digits and a unit prefix, k or M.
-
-    Examples
-    --------
-    >>> quantity(106437.25, "N"), quantity(106.25, "")
-    ('106.437 kN', '106.25')
-    """
-    if not unit:
-        return digits(value, error)
-    factor, prefix = next(((f, p) for f, p in ((1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
-    return f"{digits(value / factor, None if error is None else error / factor)} {prefix}{unit}"
+        table.add_row(*(Text(text, STYLES.get(text, "")) for text in map(cell, row)))
+    console().print(table)
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from beal.control.compensator import Array
 from beal.control.loop import Loop, loop, roots
 from beal.discretisation import Operators, discretise
 from beal.errors import ConvergenceError, ModelError
+from beal.shown import Shown
 from beal.stability.pencil import ComplexArray
 from beal.stability.spectrum import exponents
 from beal.stability.threads import one_thread
@@ -22,7 +24,7 @@ GROWING = 1e-8  # Re s, beside |s|, from which a root counts as growing
 
 
 @dataclass(frozen=True)
-class ClosedLoop:
+class ClosedLoop(Shown):
     """Roots of a vehicle under a thrust with its control law.
 
     Parameters
@@ -37,12 +39,14 @@ class ClosedLoop:
         rotation where nothing acts on the attitude, one of a motion that rates alone resist.
     error_estimate : ndarray, shape (k,)
         How much each root changed in the last refinement, in rad/s; nan for operators, which are not refined.
+    units : {"SI", "nondimensional"}
     """
 
     thrust: float
     roots: ComplexArray
     drift: int
     error_estimate: Array
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def rigid_body_roots(self) -> ComplexArray:
@@ -117,7 +121,7 @@ def closed_loop(model: Vehicle | Operators, thrust: float | None = None, modes: 
         if isinstance(model, Operators):
             closed = loop(model)
             s = lowest_roots(closed, thrust, modes)
-            return ClosedLoop(thrust, s, closed.zero_roots, np.full(len(s), np.nan))
+            return ClosedLoop(thrust, s, closed.zero_roots, np.full(len(s), np.nan), vehicle.units)
         before, best = np.empty(0, dtype=complex), np.inf
         for closed in refinements(vehicle, modes):
             s = lowest_roots(closed, thrust, modes)
@@ -125,7 +129,7 @@ def closed_loop(model: Vehicle | Operators, thrust: float | None = None, modes: 
                 error = np.abs(s[:, None] - before).min(axis=1)
                 change = float(np.max(error / np.maximum(np.abs(s), closed.speed)))
                 if change < best:
-                    best, found = change, ClosedLoop(thrust, s, closed.zero_roots, error)
+                    best, found = change, ClosedLoop(thrust, s, closed.zero_roots, error, vehicle.units)
                 if best < GOOD:
                     return found
             before = s

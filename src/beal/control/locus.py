@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -10,6 +11,7 @@ from beal.control.closed import lowest_roots, refinements, thrust_of
 from beal.control.compensator import Array
 from beal.control.loop import law_of
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.pencil import ComplexArray
 from beal.stability.threads import one_thread
 from beal.vehicle.paths import with_values
@@ -24,7 +26,7 @@ Roots = Callable[[float], ComplexArray]
 
 
 @dataclass(frozen=True)
-class ControlLocus:
+class ControlLocus(Shown):
     """Tracked roots of the closed loop.
 
     Parameters
@@ -34,11 +36,13 @@ class ControlLocus:
     values : ndarray, shape (points,)
     roots : ndarray of complex, shape (points, k)
         In rad/s, each root in its column; those of the drift are left out.
+    units : {"SI", "nondimensional"}
     """
 
     over: str
     values: Array
     roots: ComplexArray
+    units: Literal["SI", "nondimensional"] = "SI"
 
 
 def control_locus(
@@ -104,7 +108,7 @@ def control_locus(
     followed = np.array(history)
     count = len(followed[0]) - 2 * SPARE
     kept = [n for n in range(count) if np.any(followed[:, n])]
-    return ControlLocus(over, points, followed[:, kept])
+    return ControlLocus(over, points, followed[:, kept], vehicle.units)
 
 
 def varied(vehicle: Vehicle, over: str, value: float) -> Vehicle:

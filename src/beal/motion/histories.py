@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.errors import ModelError
+from beal.shown import Shown
 
 Array = NDArray[np.float64]
 Quantity = Literal["displacement", "rate", "acceleration", "slope", "slope_rate"]  # what a sensor reads
@@ -15,7 +16,7 @@ PARTS = ("rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_s
 
 
 @dataclass(frozen=True, eq=False)
-class Response:
+class Response(Shown):
     """Motion of a vehicle over time.
 
     Parameters
@@ -44,6 +45,7 @@ class Response:
     mu : ndarray of complex
         The eigenvalues omega^2 of the modes that were kept, at ``thrust`` without damping, rigid-body motions
         included, in rad^2/s^2.
+    units : {"SI", "nondimensional"}
     """
 
     time: Array
@@ -62,6 +64,7 @@ class Response:
     method: str
     step: float
     mu: NDArray[np.complex128]
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def elastic_displacement(self) -> Array:

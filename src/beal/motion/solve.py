@@ -163,6 +163,7 @@ def _read(
         method=method,
         step=step,
         mu=reduced.mu,
+        units=operators.vehicle.units,
     )
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
-from numpy.typing import NDArray
 
 from beal.plot.style import BLACK, CYCLE, GREY, VERMILION, axes, style, thrust_axis, thrust_label, thrust_unit
 from beal.stability.complete import Event
@@ -18,7 +17,6 @@ from beal.stability.curve import ThrustCurve
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-GROWING = 1e-6  # growth rate over the first frequency above which a root is drawn as unstable
 BEYOND = 1e-6  # relative distance from the critical thrust from which on an event is another one
 LEAST = 0.05  # half width of a root locus whose roots stay on the imaginary axis, over its height
 MARKERS = {"flutter": "o", "divergence": "D"}
@@ -57,7 +55,7 @@ def thrust_curve(
     with style():
         ax = axes(ax)
         scale = curve.angular_frequency[0].min() if relative else 1.0
-        for number, (omega, unstable) in enumerate(zip(curve.angular_frequency.T, _unstable(curve).T, strict=True)):
+        for number, (omega, unstable) in enumerate(zip(curve.angular_frequency.T, curve.unstable.T, strict=True)):
             color = CYCLE[number % len(CYCLE)]
             near = np.convolve(unstable, [1, 1, 1])[1:-1] > 0  # the points beside it too, so that no gap is left
             ax.plot(curve.thrust, np.where(unstable, np.nan, omega / scale), color=color, label=f"mode {number + 1}")
@@ -216,10 +214,3 @@ def _mark(ax: "Axes", change: _Change, at: tuple[float, float], nondimensional: 
     ax.plot([at[0]], [at[1]], MARKERS[change.kind], color=color, clip_on=False, label=label, **look)
     marks = [pair for pair in zip(*ax.get_legend_handles_labels(), strict=True) if "P =" in pair[1]]
     ax.legend(*zip(*marks, strict=True), handletextpad=0.2, frameon=True, framealpha=0.9, edgecolor="none")
-
-
-def _unstable(curve: ThrustCurve) -> NDArray[np.bool_]:
-    """Where modes grow, shape (points, modes); without damping also where they decay, as halves of a pair."""
-    least = GROWING * curve.angular_frequency[0].min()
-    damped = (abs(curve.growth_rate[0]) > least).any()
-    return np.asarray((curve.growth_rate if damped else abs(curve.growth_rate)) > least)

@@ -11,6 +11,7 @@ import numpy as np
 from beal.discretisation.build import RITZ, BasisName, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.complete import Event, events
 from beal.stability.damped import damped_events, fed_modes, highest_frequency, unloaded, unstable_roots
 from beal.stability.dead_loads import check_dead_loads
@@ -32,7 +33,7 @@ MOST_DAMPED = 14  # elastic modes of a damped vehicle watched: the time grows wi
 
 
 @dataclass(frozen=True)
-class CriticalThrust:
+class CriticalThrust(Shown):
     """The smallest thrust at which a vehicle loses stability.
 
     Parameters
@@ -61,6 +62,7 @@ class CriticalThrust:
         difference 1e-6), so that ``kind`` and ``modes`` are those of one side of a border.
     elastic : CriticalThrust or None
         For a vehicle that tumbles, whose critical thrust is 0: what its elastic modes alone would bear.
+    units : {"SI", "nondimensional"}
     """
 
     critical_thrust: float | None
@@ -74,6 +76,7 @@ class CriticalThrust:
     rigid_body: Literal["neutral", "tumbling", "held"]
     border: bool = False
     elastic: "CriticalThrust | None" = None
+    units: Literal["SI", "nondimensional"] = "SI"
 
 
 @dataclass(frozen=True)
@@ -264,7 +267,10 @@ def _solve(task: _Task, operators: Operators, method: str, refine: Refine) -> Cr
     rigid_body: Literal["neutral", "tumbling", "held"]
     floats = operators.rigid > 0 or (operators.vehicle.free_free and not operators.vehicle.founded)
     rigid_body = "tumbling" if drift == "tumbling" else "neutral" if floats else "held"
-    nothing = CriticalThrust(None, "stable", None, None, None, task.formulation, task.limit, watched, rigid_body)
+    units = operators.vehicle.units
+    nothing = CriticalThrust(
+        None, "stable", None, None, None, task.formulation, task.limit, watched, rigid_body, units=units
+    )
     result = nothing
     if found:
         point, error = refine(found)

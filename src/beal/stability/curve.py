@@ -2,13 +2,16 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.damped_roots import NEUTRAL, damped_modes
 from beal.stability.limit import default_limit
 from beal.stability.pencil import Array, ComplexArray, pencil
@@ -18,13 +21,15 @@ from beal.vehicle.vehicle import Vehicle
 
 SPARE = 3  # roots followed beyond those asked for, so that a mode that rises out of them is not lost
 LIKENESS = 0.6  # below this likeness of the shapes a step is halved
+GROWING = 1e-6  # growth rate over the first frequency above which a root counts as unstable
 SLOWER = 1e-2  # what decides between two real roots that are equally near
 HALVINGS = 6
+MODES = 4  # followed unless told otherwise
 ORDER = 14
 
 
 @dataclass(frozen=True)
-class ThrustCurve:
+class ThrustCurve(Shown):
     """Tracked modes over thrust.
 
     Parameters
@@ -35,12 +40,21 @@ class ThrustCurve:
         In rad/s and 1/s. Of a coalesced pair one branch grows and the other decays; of a mode that damping or
         divergence splits into two real roots the one that decays more slowly is followed.
     formulation : str
+    units : {"SI", "nondimensional"}
     """
 
     thrust: Array
     angular_frequency: Array
     growth_rate: Array
     formulation: str
+    units: Literal["SI", "nondimensional"] = "SI"
+
+    @property
+    def unstable(self) -> NDArray[np.bool_]:
+        """Where modes grow, shape (points, modes); without damping also where they decay, as halves of a pair."""
+        least = GROWING * self.angular_frequency[0].min()
+        damped = (abs(self.growth_rate[0]) > least).any()
+        return np.asarray((self.growth_rate if damped else abs(self.growth_rate)) > least)
 
 
 @dataclass(frozen=True)
@@ -55,7 +69,7 @@ def thrust_curve(
     vehicle: Vehicle | Operators,
     to: float | None = None,
     points: int = 201,
-    modes: int = 4,
+    modes: int | None = None,
     formulation: Formulation = "objective",
 ) -> ThrustCurve:
     """Frequency and growth rate of the lowest modes from zero thrust up.
@@ -71,8 +85,8 @@ def thrust_curve(
         Last thrust, in N; by default that to which `critical_thrust` searches.
     points : int
         Number of thrusts, evenly spaced from 0.
-    modes : int
-        Number of elastic modes, the lowest at zero thrust.
+    modes : int, optional
+        Number of elastic modes, the lowest at zero thrust; by default 4, or all that rigid stages have.
     formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
 
     Returns
@@ -100,6 +114,7 @@ def thrust_curve(
         operators = discretise(operators, formulation, order=None if formulation in RITZ else ORDER)
     full = pencil(operators)
     elastic = len(full.M) - full.rigid
+    modes = min(MODES, elastic) if modes is None else modes
     if not 1 <= modes <= elastic:
         raise ModelError(f"modes: must lie between 1 and {elastic} for this discretisation, found {modes}")
     followed = min(modes + full.rigid + SPARE, len(full.M))
@@ -124,7 +139,7 @@ def thrust_curve(
             state = _follow(state, float(thrust), roots, full.M, HALVINGS)
             history.append(state.s[columns])
     s = np.array(history)
-    return ThrustCurve(thrusts, np.abs(s.imag), np.asarray(s.real), formulation)
+    return ThrustCurve(thrusts, np.abs(s.imag), np.asarray(s.real), formulation, operators.vehicle.units)
 
 
 def _follow(state: _Roots, thrust: float, roots: Callable[[float], _Roots], M: Array, halvings: int) -> _Roots:

@@ -42,9 +42,9 @@ SAME = 1e-13  # relative change below which a point, or the roots beside the shi
 def is_large(vehicle: Vehicle) -> bool:
     """Whether a vehicle has so many segments that its dense matrices take longer than their reduction.
 
-    Damping ratios couple all coordinates, whose matrix then is not sparse.
+    Damping ratios couple all coordinates, whose matrix then is not sparse. Rigid stages have none of their own.
     """
-    return len(segments(vehicle, few=ALL)) >= SEGMENTS and not any(vehicle.damping.ratios)
+    return vehicle.deforms and len(segments(vehicle, few=ALL)) >= SEGMENTS and not any(vehicle.damping.ratios)
 
 
 class Reduction:

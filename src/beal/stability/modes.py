@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from beal.discretisation.build import RITZ, Formulation, discretise
+from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.large import Reduction, is_large
 from beal.stability.pencil import Array
@@ -14,12 +15,12 @@ from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
 ORDERS = (10, 14, 20, 28, 40, 56, 80, 112)
-MOST_MODES = 40
+MODES, MOST_MODES = 6, 40  # unless told otherwise, and at most
 GOOD, POOR = 1e-9, 1e-4  # relative change from one order to the next at which to stop, and above which to give up
 
 
 def converged_modes(
-    vehicle: Vehicle, thrust: float, count: int, formulation: Formulation = "objective"
+    vehicle: Vehicle, thrust: float, count: int | None = None, formulation: Formulation = "objective"
 ) -> tuple[Spectrum, Array | None]:
     """The lowest elastic modes at a thrust.
 
@@ -28,8 +29,8 @@ def converged_modes(
     vehicle : Vehicle
     thrust : float
         In N.
-    count : int
-        Number of modes.
+    count : int, optional
+        Number of modes; by default 6, or all that rigid stages have.
     formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
 
     Returns
@@ -53,9 +54,11 @@ def converged_modes(
     [5.175762, 18.586795]
     """
     if formulation in RITZ:
-        return spectrum(discretise(vehicle, formulation), thrust, count), None
-    if not 1 <= count <= MOST_MODES:
-        raise ModelError(f"count: must lie between 1 and {MOST_MODES}, found {count}")
+        return spectrum(discretise(vehicle, formulation), thrust, count or MODES), None
+    most = MOST_MODES if vehicle.deforms else min(MOST_MODES, _elastic(discretise(vehicle, formulation)))
+    count = min(MODES, most) if count is None else count
+    if not 1 <= count <= most:
+        raise ModelError(f"count: must lie between 1 and {most}, found {count}")
     before: Array | None = None
     best: tuple[float, Spectrum, Array] | None = None
     with one_thread():
@@ -80,5 +83,10 @@ def _spectra(vehicle: Vehicle, formulation: Formulation, thrust: float, count: i
     """The lowest elastic modes in finer and finer discretisations."""
     for order in ORDERS:
         operators = discretise(vehicle, formulation, order=order)
-        if len(operators.M) - operators.rigid >= count:
+        if _elastic(operators) >= count:
             yield spectrum(operators, thrust, count)
+
+
+def _elastic(operators: Operators) -> int:
+    """Number of elastic coordinates."""
+    return len(operators.M) - operators.rigid

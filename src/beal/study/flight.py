@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError, ModelError
+from beal.shown import Shown
 from beal.stability.critical import CriticalThrust, critical_thrust
 from beal.stability.modes import MOST_MODES, converged_modes
 from beal.vehicle.file import read_timeline
@@ -69,7 +70,7 @@ class FlightState:
 
 
 @dataclass(frozen=True)
-class Flight:
+class Flight(Shown):
     """A vehicle at all times of its timeline.
 
     Parameters

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, FiniteFloat, model_validator
 
+from beal.shown import Shown
 from beal.vehicle.base import Misfit, Part, refusal, si, together
 from beal.vehicle.control import Control, unheard
 from beal.vehicle.parts import (
@@ -67,7 +68,7 @@ class Scales:
         return 1.0 / self.time
 
 
-class Vehicle(Part):
+class Vehicle(Part, Shown):
     """A flexible vehicle: stages from nose to tail, the joints between them, masses, supports and loads.
 
     Parameters
@@ -196,6 +197,11 @@ class Vehicle(Part):
     def shears(self) -> bool:
         """Whether any stage has a finite shear stiffness."""
         return any(mean(stage.shear_stiffness) < math.inf for stage in self.stages)
+
+    @cached_property
+    def deforms(self) -> bool:
+        """Whether any stage bends or shears; else there are no more modes than springs."""
+        return self.shears or any(mean(stage.bending_stiffness) < math.inf for stage in self.stages)
 
     @cached_property
     def turns_inertia(self) -> bool:
