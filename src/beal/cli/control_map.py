@@ -4,8 +4,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beal.cli.figures import control_map_figure, named, new_figure
-from beal.cli.output import check_folder, emit, note, progress_bar, quantity
+from beal.cli.output import check_folder, emit, note, progress_bar
 from beal.errors import ModelError
+from beal.report.numbers import quantity
 
 if TYPE_CHECKING:
     from xarray import Dataset
