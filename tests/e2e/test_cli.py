@@ -31,6 +31,7 @@ COMMANDS = [
     "floquet",
     "map",
     "response",
+    "amplitude",
     "reproduce",
     "verify",
     "convert",

@@ -91,7 +91,7 @@ def test_all_problems_are_listed_under_the_name_of_the_file(tmp_path):
         load(path)
     known = "title, units, stage, joint, point_mass, tank, support, thrust, damping, distributed_thrust, "
     known += "axial_load, gravity, sensor, force, control, timeline"
-    of_thrust = "tangency, scale, station, line, along, axial_term, axial_force, nominal"
+    of_thrust = "tangency, scale, station, line, along, axial_term, axial_force, nominal, signal"
     assert str(caught.value).splitlines() == [
         f"{path}: 5 problems",
         f"  stages: unknown key; known here: {known}",

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from beal import __version__
+from beal.cli.amplitude import amplitude
 from beal.cli.control import control
 from beal.cli.convert import convert
 from beal.cli.critical import critical
@@ -28,6 +29,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
+    "amplitude": (amplitude, "beal amplitude tsto.toml --duration 4 --thrust 10:120:45 --force 0:2:21"),
     "reproduce": (reproduce, "beal reproduce -o paper"),
     "verify": (verify, "beal verify --case pflueger"),
     "convert": (convert, "beal convert stick.bdf tsto.toml --nose low"),

@@ -2,15 +2,17 @@
 
 import math
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from beal.cli.control_map import show_map
-from beal.cli.figures import control_figure, named, new_figure, open_loop_figure
-from beal.cli.options import AsJson, Figure, Model, Table
-from beal.cli.output import emit, new_path, new_result, note, show_table
+from beal.cli.figures import Draw, control_figure, named, new_figure, open_loop_figure
+from beal.cli.options import AsJson, Figure, Model, Report, Table
+from beal.cli.output import Answer, emit, new_path, new_result, note, show
+from beal.cli.reports import new_report
 from beal.errors import ModelError
 from beal.report.numbers import quantity
 
@@ -45,6 +47,7 @@ def control(
     ] = "locus",
     output: Table = None,
     figure: Figure = None,
+    report: Report = None,
     plant: Annotated[
         Path | None,
         typer.Option("--state-space", metavar="FILE", help="Write the open loop there: .mat or .nc."),
@@ -62,6 +65,8 @@ def control(
     if drawn not in DRAWINGS:
         raise ModelError(f"--draw: must be one of {', '.join(DRAWINGS)}, found {drawn!r}")
     vehicle = load(model)
+    if mapped and report:
+        raise ModelError("--report: tells of one thrust; leave out --map")
     if mapped:
         limits = (start, to, max_thrust)
         show_map(vehicle, over, limits, points, thrust, min(modes, DRAWN), output, figure, as_json)
@@ -70,7 +75,7 @@ def control(
         raise ModelError("--from, --max-thrust: are of a map; give --map")
     if not figure and (over != "thrust" or to is not None or drawn != "locus"):
         raise ModelError("--over, --to, --draw: say what a figure shows; give --figure FILE")
-    with new_figure(figure, as_json) as draw, new_result(output) as write:
+    with new_figure(figure, as_json) as draw, new_result(output) as write, new_report(report, as_json) as tell:
         found = closed_loop(vehicle, thrust, modes)
         margins = stability_margins(vehicle, thrust, modes)
         critical = controlled_thrust(vehicle, modes=modes) if largest else None
@@ -82,6 +87,11 @@ def control(
         elif figure:
             loop = open_loop(vehicle, thrust, modes)
             draw(lambda: open_loop_figure(loop, margins, drawn))
+        answer = _answer(vehicle, found, margins, critical)
+        if report:
+            tell(
+                vehicle, "its control loop closed", answer, _figures(vehicle, found.thrust, margins, min(modes, DRAWN))
+            )
     if plant:
         with new_path(plant) as part:
             matrices = state_space(vehicle, thrust, modes=modes)
@@ -100,17 +110,30 @@ def control(
                 "units": vehicle.units,
                 "file": str(output) if output else None,
                 "state_space": str(plant) if plant else None,
-                **named(figure),
+                **named(figure, report),
             }
         )
         return
-    _show(vehicle, found)
-    _show_margins(vehicle, margins)
-    if critical:
-        print(_borne(vehicle, critical))
+    show(answer)
     for what, path in (("roots", output), ("state space", plant)):
         if path:
             note(f"{what} written to {path}")
+
+
+def _figures(vehicle: "Vehicle", thrust: float, margins: "Margins", modes: int) -> "dict[str, Draw]":
+    """What a report shows."""
+    from beal.control import control_locus, open_loop
+
+    plain = vehicle.units == "nondimensional"
+    figures: dict[str, Draw] = {}
+    for over, caption in (("thrust", "from no thrust to twice this one"), ("gain", "from no gain to twice the law's")):
+        locus = control_locus(vehicle, over, _values(vehicle, over, None, thrust), thrust, modes)
+        figures[f"Roots {caption}"] = partial(control_figure, locus, plain)
+    if margins.gain or margins.phase:
+        loop = open_loop(vehicle, thrust, modes)
+        figures["Open loop, Nyquist"] = partial(open_loop_figure, loop, margins, "nyquist")
+        figures["Open loop, Nichols"] = partial(open_loop_figure, loop, margins, "nichols")
+    return figures
 
 
 def _values(vehicle: "Vehicle", over: str, to: float | None, thrust: float) -> "list[float]":
@@ -147,35 +170,38 @@ def _columns(found: "ClosedLoop") -> dict[str, Any]:
     return {"real": found.roots.real, "imag": found.roots.imag, "damping_ratio": found.damping_ratio}
 
 
-def _show(vehicle: "Vehicle", found: "ClosedLoop") -> None:
+def _answer(vehicle: "Vehicle", found: "ClosedLoop", margins: "Margins", critical: "ControlledThrust | None") -> Answer:
     root, si = found.least_damped, vehicle.units == "SI"
     if found.stable:
         state = "stable" if root.real < 0 else "stable, but undamped"
     else:
         state = f"unstable, its motion grows as exp({root.real:.4g} t)"
     drift = f"; {found.drift} zero roots of rigid-body drift" if found.drift else ""
-    print(f"P = {found.thrust:.9g}{' N' if si else ''}: {state}{drift}")
     upper = [root for root in found.roots[found.drift :].tolist() if root.imag >= 0]
     rows = [[root.real + 0.0, root.imag, -root.real / abs(root) + 0.0] for root in upper]
     columns = ["real part [1/s]", "imaginary part [rad/s]"] if si else ["real part", "imaginary part"]
     if si:
         rows = [[real, imag, imag / (2 * math.pi), ratio] for real, imag, ratio in rows]
         columns.append("frequency [Hz]")
-    show_table([*columns, "damping ratio"], rows)
+    answer: list[Any] = [f"P = {found.thrust:.9g}{' N' if si else ''}: {state}{drift}"]
+    answer.append(([*columns, "damping ratio"], rows))
+    if margins.gain or margins.phase:
+        answer.append(_margin_table(vehicle, margins))
+    if critical:
+        answer.append(_borne(vehicle, critical))
+    return answer
 
 
-def _show_margins(vehicle: "Vehicle", found: "Margins") -> None:
+def _margin_table(vehicle: "Vehicle", found: "Margins") -> tuple[list[str], list[list[Any]]]:
     rows: list[list[Any]] = [
         ["gain", margin.angular_frequency, _mode(margin.mode), margin.decibel, margin.factor] for margin in found.gain
     ]
     rows += [
         ["phase", margin.angular_frequency, _mode(margin.mode), margin.degrees, margin.delay] for margin in found.phase
     ]
-    if rows:
-        unit = (" [rad/s]", " [s]") if vehicle.units == "SI" else ("", "")
-        columns = ["name", f"angular frequency{unit[0]}", "near", "margin [dB, deg]", f"factor, delay{unit[1]}"]
-        rows.sort(key=lambda row: row[1])
-        show_table(columns, rows)
+    unit = (" [rad/s]", " [s]") if vehicle.units == "SI" else ("", "")
+    columns = ["name", f"angular frequency{unit[0]}", "near", "margin [dB, deg]", f"factor, delay{unit[1]}"]
+    return columns, sorted(rows, key=lambda row: row[1])
 
 
 def _mode(number: int) -> str:

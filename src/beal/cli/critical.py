@@ -8,6 +8,7 @@ import typer
 
 from beal.cli.drawn import Plot, show_curve, wanted
 from beal.cli.figures import curve_figure, named, new_figure
+from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Formulation, Model
 from beal.cli.output import emit, say, show_table
 from beal.report.numbers import quantity
@@ -41,12 +42,11 @@ def critical(
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
     from beal.errors import ModelError
-    from beal.interop.files import load
     from beal.motion import transient_growth
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.vanishing import vanishing_damping_limit
 
-    vehicle = load(model)
+    vehicle = vehicle_of(model)
     drawn = wanted(plot, as_json)
     with new_figure(figure, as_json) as draw:
         found = critical_thrust(

@@ -6,6 +6,7 @@ import typer
 
 from beal.cli.drawn import Plot, show_curve, wanted
 from beal.cli.figures import curve_figure, named, new_figure
+from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Formulation, Model, Table
 from beal.cli.output import emit, new_result, note, show_table
 
@@ -28,11 +29,10 @@ def curve(
 ) -> None:
     """Frequency and growth rate of each mode, followed over the thrust."""
     from beal.interop import results
-    from beal.interop.files import load
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.curve import thrust_curve
 
-    vehicle = load(model)
+    vehicle = vehicle_of(model)
     drawn = wanted(plot, as_json)
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         found = thrust_curve(vehicle, to, points, modes, formulation)  # type: ignore[arg-type]  # checked there

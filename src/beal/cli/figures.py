@@ -15,10 +15,11 @@ if TYPE_CHECKING:
 
     from beal.control import ControlLocus, Margins, StateSpace
     from beal.discretisation.operators import Operators
-    from beal.motion import Quantity, Response
+    from beal.motion import AmplitudeMap, Response
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust
     from beal.stability.curve import ThrustCurve
+    from beal.stability.floquet import Floquet
     from beal.stability.spectrum import Spectrum
     from beal.study.flight import Flight
     from beal.vehicle.vehicle import Vehicle
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 FORMATS = (".png", ".svg", ".pdf")
 DOTS = 300  # per inch of a picture, as printers ask for
 WIDE, HIGH = 5.0, 3.0  # of a panel, inches
-DRAWN: "tuple[Quantity, ...]" = ("displacement", "rate", "slope")
+DRAWN = ("displacement", "rate", "slope")  # of a motion, unless told
 
 Draw = Callable[[], "Figure"]
 
@@ -72,9 +73,9 @@ def new_figure(path: Path | None, quiet: bool) -> Iterator[Callable[[Draw], None
         note(f"figure written to {path}")
 
 
-def named(path: Path | None) -> dict[str, str]:
-    """The figure's entry in a JSON object, if there is one."""
-    return {"figure": str(path)} if path else {}
+def named(figure: Path | None, report: Path | None = None) -> dict[str, str]:
+    """The entries of a figure and of a report in a JSON object, of those that there are."""
+    return {name: str(path) for name, path in (("figure", figure), ("report", report)) if path}
 
 
 def vehicle_figure(vehicle: "Vehicle") -> "Figure":
@@ -123,19 +124,25 @@ def curve_figure(
     return figure
 
 
-def response_figure(found: "Response", nondimensional: bool, quantities: "Sequence[Quantity]" = DRAWN) -> "Figure":
-    """Quantities over time, a column for each sensor."""
+def response_figure(
+    found: "Response",
+    nondimensional: bool,
+    quantities: Sequence[str] = DRAWN,
+    draw: "Callable[..., Axes] | None" = None,
+) -> "Figure":
+    """Quantities at the sensors, a column for each; histories unless another function draws them."""
     from matplotlib.figure import Figure
 
     from beal import plot
 
+    drawing: Callable[..., Axes] = draw or plot.response
     number = len(found.sensors)
     figure = Figure(figsize=(WIDE * max(1.0, 0.7 * number), 2 / 3 * HIGH * len(quantities)), layout="constrained")
     panels = figure.subplots(len(quantities), number, sharex=True, squeeze=False)
     for sensor, column in zip(found.sensors, panels.T, strict=True):
         column[0].set_title(sensor, loc="left")
         for quantity, ax in zip(quantities, column, strict=True):
-            plot.response(found, ax, sensor, quantity, nondimensional)
+            drawing(found, ax, sensor, quantity, nondimensional)
             ax.label_outer()
     return figure
 
@@ -205,6 +212,28 @@ def floquet_figure(chart: "Dataset") -> "Figure":
 
     figure = Figure(figsize=(1.3 * WIDE, 1.3 * HIGH), layout="constrained")
     plot.floquet_chart(chart, figure.subplots())
+    return figure
+
+
+def multipliers_figure(found: "Floquet") -> "Figure":
+    """The multipliers of one pulsation beside the unit circle."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(WIDE, 1.4 * HIGH), layout="constrained")
+    plot.multipliers(found, figure.subplots())
+    return figure
+
+
+def amplitude_figure(found: "AmplitudeMap", nondimensional: bool) -> "Figure":
+    """The largest motion over thrust and force."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(1.2 * WIDE, 1.2 * HIGH), layout="constrained")
+    plot.amplitude_map(found, figure.subplots(), nondimensional)
     return figure
 
 

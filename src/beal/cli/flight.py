@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beal.cli.figures import flight_figure, named, new_figure
+from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Model
 from beal.cli.output import emit, new_file, note, progress_bar, show_table, write_columns
 from beal.report.numbers import cell
@@ -27,10 +28,9 @@ def flight(
 ) -> None:
     """Mass, frequencies, critical thrust and margin at every time of a flight."""
     from beal.cli import NOT_CONVERGED
-    from beal.interop.files import load
     from beal.study.flight import flight as fly
 
-    vehicle = load(model)
+    vehicle = vehicle_of(model)
     with new_figure(figure, as_json) as draw:
         with progress_bar() as progress:
             found = fly(vehicle, timeline, modes, lambda done, total: progress("times", done, total))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from beal.cli.figures import map_figure, named, new_figure
+from beal.cli.loaded import note_omissions
 from beal.cli.options import AsJson, Figure
 from beal.cli.output import check_folder, emit, make_folder, note, progress_bar
 from beal.errors import ModelError
@@ -47,6 +48,7 @@ def map_study(
     from beal.study.map import run_study
 
     task = load_study(study)
+    note_omissions(task.vehicle)
     if figure and (len(task.shape) != 2 or min(task.shape) < 2):
         shape = " x ".join(map(str, task.shape))
         raise ModelError(f"--figure: draws maps over two axes of more than one value each, found {shape}")

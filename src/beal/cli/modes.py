@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beal.cli.figures import modes_figure, named, new_figure
+from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Formulation, Model
 from beal.cli.output import emit, new_result, note, show_table
 from beal.errors import ModelError
@@ -35,12 +36,11 @@ def modes(
 ) -> None:
     """Frequencies and growth rates of the lowest elastic modes at a thrust."""
     from beal.discretisation.build import discretise
-    from beal.interop.files import load
     from beal.interop.results import mode_shapes
     from beal.stability.modes import converged_modes
     from beal.stability.spectrum import spectrum
 
-    vehicle = load(model)
+    vehicle = vehicle_of(model)
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
         if output or figure:

@@ -15,6 +15,9 @@ Formulation = Annotated[
 Table = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write a table there: CSV, .nc, .mat or .uff.")
 ]
+Report = Annotated[
+    Path | None, typer.Option("--report", metavar="FILE.html", help="Tell it all there, one self-contained page.")
+]
 Figure = Annotated[
     Path | None, typer.Option("--figure", metavar="FILE", help="Draw the result there: .png, .svg or .pdf.")
 ]

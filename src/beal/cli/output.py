@@ -26,6 +26,7 @@ STYLES = {  # of words in a table
     "not converged": "bold red",
     "invalid": "bold red",
 }
+Answer = Sequence[str | tuple[Sequence[str], Sequence[Sequence[object]]]]  # sentences, and tables as columns and rows
 
 
 def emit(data: dict[str, Any]) -> None:
@@ -70,6 +71,15 @@ def shows(letters: str) -> bool:
 def say(text: str, style: str = "") -> None:
     """Print a line, on a terminal in a style."""
     console().print(text, style=style, soft_wrap=True)
+
+
+def show(answer: Answer) -> None:
+    """Print sentences and tables in their order."""
+    for block in answer:
+        if isinstance(block, str):
+            print(block)
+        else:
+            show_table(*block)
 
 
 def show_table(columns: Sequence[str], rows: Sequence[Sequence[object]], title: str = "") -> None:

@@ -1,11 +1,14 @@
 """Results as labelled arrays: mode shapes along the vehicle, frequencies over thrust, motion at the sensors."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beal.control import ClosedLoop, StateSpace
 from beal.discretisation.operators import Operators
+from beal.motion.amplitude import AmplitudeMap
 from beal.motion.histories import PARTS, QUANTITIES, Response
 from beal.stability.curve import ThrustCurve
 from beal.stability.spectrum import Spectrum
@@ -13,6 +16,7 @@ from beal.stability.spectrum import Spectrum
 if TYPE_CHECKING:
     import xarray  # takes a second
 
+Array = NDArray[np.float64]
 UNITS = {
     "station": "m",
     "angular_frequency": "rad/s",
@@ -120,11 +124,47 @@ def response(found: Response) -> "xarray.Dataset":
     xarray.Dataset
         What a sensor reads, and its rigid and elastic parts, over ``sensor`` and ``time``.
     """
-    names = (*QUANTITIES, *PARTS)
+    return at_sensors(found, "time", found.time, {name: getattr(found, name) for name in (*QUANTITIES, *PARTS)})
+
+
+def at_sensors(found: Response, axis: str, along: Array, values: Mapping[str, Array]) -> "xarray.Dataset":
+    """What is told of a motion at its sensors over time or frequency.
+
+    Parameters
+    ----------
+    found : Response
+    axis : {"time", "angular_frequency"}
+    along : ndarray, shape (k,)
+    values : mapping of quantity to ndarray, shape (sensors, k)
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``sensor`` and the axis.
+    """
     return _labelled(
-        {name: (("sensor", "time"), getattr(found, name)) for name in names},
-        {"sensor": list(found.sensors), "time": found.time},
+        {name: (("sensor", axis), value) for name, value in values.items()},
+        {"sensor": list(found.sensors), axis: along},
         {"thrust": found.thrust, "method": found.method, "step": found.step},
+    )
+
+
+def amplitude_map(found: AmplitudeMap) -> "xarray.Dataset":
+    """The largest motion at a sensor.
+
+    Parameters
+    ----------
+    found : AmplitudeMap
+
+    Returns
+    -------
+    xarray.Dataset
+        ``amplitude`` over ``thrust`` and ``force``, multiples of the vehicle's forces.
+    """
+    return _labelled(
+        {"amplitude": (("thrust", "force"), found.amplitude)},
+        {"thrust": found.thrust, "force": found.factor},
+        {"sensor": found.sensor, "quantity": found.quantity, "duration": found.duration},
     )
 
 

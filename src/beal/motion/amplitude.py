@@ -1,6 +1,6 @@
 """The largest motion at a sensor over thrust and force: the generalised Fig. 15 of Irani & Kavianipour (2009)."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -54,6 +54,7 @@ def amplitude_map(
     initial: Initial | None = None,
     modes: int = 8,
     rigid_body: bool = False,
+    progress: Callable[[int, int], None] | None = None,
 ) -> AmplitudeMap:
     """The largest motion at a sensor, for each of some thrusts and multiples of the transverse forces.
 
@@ -78,6 +79,8 @@ def amplitude_map(
         Elastic modes that are kept.
     rigid_body : bool
         Whether rigid-body motion counts.
+    progress : callable, optional
+        Called with the number of thrusts done and of all.
 
     Returns
     -------
@@ -126,4 +129,6 @@ def amplitude_map(
             rows.append(abs(history).max(axis=1))
         except ConvergenceError:
             rows.append(np.full(len(multiples), np.inf))
+        if progress:
+            progress(len(rows), len(thrusts))
     return AmplitudeMap(np.asarray(thrusts, dtype=float), multiples, np.array(rows), name, quantity, duration)

@@ -12,7 +12,8 @@ from beal.shown import Shown
 Array = NDArray[np.float64]
 Quantity = Literal["displacement", "rate", "acceleration", "slope", "slope_rate"]  # what a sensor reads
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
-PARTS = ("rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope")
+MotionPart = Literal["rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope"]
+PARTS: tuple[MotionPart, ...] = get_args(MotionPart)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,9 +84,9 @@ class Response(Shown):
         return self.sensors.index(sensor)
 
     def history(self, sensor: str, quantity: str = "displacement") -> Array:
-        """One quantity at a sensor, shape (k,)."""
-        if quantity not in QUANTITIES:
-            raise ModelError(f"quantity: must be one of {', '.join(QUANTITIES)}, found {quantity!r}")
+        """One quantity at a sensor, or a part of its motion, shape (k,)."""
+        if quantity not in (known := (*QUANTITIES, *PARTS)):
+            raise ModelError(f"quantity: must be one of {', '.join(known)}, found {quantity!r}")
         values: Array = getattr(self, quantity)[self.index(sensor)]
         return values
 

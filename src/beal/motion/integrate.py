@@ -30,7 +30,7 @@ class Problem:
         p and p' at time 0.
     B : ndarray, shape (k, k)
         Stiffness per thrust.
-    thrust : PulsatingThrust or ThrustTable, optional
+    thrust : PulsatingThrust, ThrustTable or SignalThrust, optional
         P; by default P0.
     """
 

@@ -15,7 +15,7 @@ from beal.motion.integrate import Problem, by_newmark, without_error_of_the_step
 from beal.motion.newmark import check_parameters
 from beal.motion.reduction import ReducedEquations, reduce
 from beal.motion.steps import check_step, frequencies, step_count
-from beal.motion.thrusts import PulsatingThrust, ThrustHistory, ThrustTable
+from beal.motion.thrusts import SignalThrust, ThrustHistory
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -46,8 +46,8 @@ def response(
     model : Vehicle or Operators
     duration : float
         In s.
-    thrust : float, PulsatingThrust or ThrustTable, optional
-        P, in N; by default the vehicle's nominal thrust.
+    thrust : float, PulsatingThrust, ThrustTable or SignalThrust, optional
+        P, in N; by default the vehicle's nominal thrust and, if it has one, the signal of its thrust.
     step : float, optional
         In s; shortened such that the duration is a whole number of steps. By default a fortieth of the
         shortest period among the four lowest elastic modes and the forces, and no more than half of the
@@ -104,8 +104,10 @@ def response(
     _check_options(duration, step, method, modes)
     _check_content(vehicle, initial)
     check_parameters(beta, gamma)
-    varying = thrust if isinstance(thrust, PulsatingThrust | ThrustTable) else None
-    middle = thrust.middle if isinstance(thrust, PulsatingThrust | ThrustTable) else _thrust(vehicle, thrust)
+    if thrust is None and vehicle.thrust.signal is not None:
+        thrust = SignalThrust(_thrust(vehicle, None), vehicle.thrust.signal)
+    varying = thrust if isinstance(thrust, ThrustHistory) else None
+    middle = thrust.middle if isinstance(thrust, ThrustHistory) else _thrust(vehicle, thrust)
     reduced = reduce(operators, middle, modes, rigid_body)
     found = frequencies(reduced, vehicle, varying.highest_frequency if varying else 0.0)
     count = step_count(duration, step, found)

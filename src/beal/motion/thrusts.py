@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beal.errors import ModelError
+from beal.motion import signals
+from beal.vehicle.signals import Signal
 
 Array = NDArray[np.float64]
 
@@ -19,7 +21,7 @@ class PulsatingThrust:
     Parameters
     ----------
     mean, amplitude : float
-        In N; the thrust must not become negative.
+        In N; with an amplitude beyond the mean the thrust pulls now and then.
     angular_frequency : float
         In rad/s.
     phase : float
@@ -42,11 +44,8 @@ class PulsatingThrust:
     phase: float = 0.0
 
     def __post_init__(self) -> None:
-        if not np.isfinite([self.mean, self.amplitude, self.phase]).all() or abs(self.amplitude) > self.mean:
-            raise ModelError(
-                "thrust: must be finite and never negative, its amplitude no larger than its mean, "
-                f"found {self.mean} +- {self.amplitude}"
-            )
+        if not np.isfinite([self.mean, self.amplitude, self.phase]).all() or self.mean < 0:
+            raise ModelError(f"thrust: must be finite, its mean not negative, found {self.mean} +- {self.amplitude}")
         if not 0 < self.angular_frequency < math.inf:
             raise ModelError(f"thrust: its angular frequency must be positive, found {self.angular_frequency}")
 
@@ -130,4 +129,45 @@ class ThrustTable:
         return 0.0
 
 
-ThrustHistory = PulsatingThrust | ThrustTable
+@dataclass(frozen=True)
+class SignalThrust:
+    """P(t) = mean + a signal, as ``thrust.signal`` of the model file says.
+
+    Parameters
+    ----------
+    mean : float
+        In N.
+    signal : Signal
+        In N.
+
+    Examples
+    --------
+    >>> from beal.vehicle.signals import Step
+    >>> SignalThrust(90.0, Step(kind="step", amplitude=-5.0, start=1.0)).at([0.0, 2.0]).tolist()
+    [90.0, 85.0]
+    """
+
+    mean: float
+    signal: Signal
+
+    def at(self, time: ArrayLike) -> Array:
+        """P at times, in N, shape (k,)."""
+        return np.asarray(self.mean + signals.value(self.signal, time))
+
+    @property
+    def middle(self) -> float:
+        """The mean thrust, in N."""
+        return self.mean
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times at which it or one of its rates jumps, in s."""
+        return signals.breakpoints(self.signal)
+
+    @property
+    def highest_frequency(self) -> float:
+        """In rad/s."""
+        return signals.highest_frequency(self.signal)
+
+
+ThrustHistory = PulsatingThrust | ThrustTable | SignalThrust

@@ -4,23 +4,26 @@ from beal.plot.control import control_locus, control_map
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
-from beal.plot.histories import amplitude_map, response, trajectory
+from beal.plot.histories import amplitude_map, amplitude_spectrum, envelope, response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.opened import nichols, nyquist
-from beal.plot.pulsating import floquet_chart
+from beal.plot.pulsating import floquet_chart, multipliers
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 from beal.plot.transient import pseudospectrum, transient_growth
 
 __all__ = [
     "amplitude_map",
+    "amplitude_spectrum",
     "control_locus",
     "control_map",
     "deflections",
+    "envelope",
     "flight",
     "floquet_chart",
     "growth_rates",
     "mode_shapes",
+    "multipliers",
     "nichols",
     "nyquist",
     "pseudospectrum",

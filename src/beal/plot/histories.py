@@ -4,12 +4,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from beal.motion import AmplitudeMap, Quantity, Response
+from beal.motion import AmplitudeMap, MotionPart, Quantity, Response
+from beal.motion import amplitude_spectrum as spectrum
+from beal.motion import envelope as amplitudes
 from beal.plot.style import BLUE, GREY, VERMILION, axes, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+FAINT, AUDIBLE = 1e-12, 1e-4  # of the largest amplitude: what is drawn at all, and up to where the axis reaches
 TIME = r"time $\bar t = t\,(EI/mL^4)^{1/2}$"
 
 
@@ -17,7 +20,7 @@ def response(
     result: Response,
     ax: "Axes | None" = None,
     sensor: str | None = None,
-    quantity: Quantity = "displacement",
+    quantity: Quantity | MotionPart = "displacement",
     nondimensional: bool = True,
     **line: Any,
 ) -> "Axes":
@@ -30,6 +33,7 @@ def response(
     sensor : str, optional
         Name; by default the first.
     quantity : {"displacement", "rate", "acceleration", "slope", "slope_rate"}
+        Or a part of the motion, ``rigid_displacement``, ``elastic_displacement``, ``rigid_slope`` or ``elastic_slope``.
     nondimensional : bool
         Whether the labels are those of the non-dimensional form or carry SI units.
     **line
@@ -87,6 +91,75 @@ def trajectory(
         return ax
 
 
+def envelope(
+    result: Response,
+    ax: "Axes | None" = None,
+    sensor: str | None = None,
+    quantity: Literal["displacement", "rate", "slope"] = "displacement",
+    nondimensional: bool = True,
+) -> "Axes":
+    """Draw the amplitude of one quantity at a sensor over time.
+
+    Parameters
+    ----------
+    result : Response
+    ax : Axes, optional
+    sensor : str, optional
+        Name; by default the first.
+    quantity : {"displacement", "rate", "slope"}
+    nondimensional : bool
+
+    Returns
+    -------
+    Axes
+    """
+    with style():
+        ax = axes(ax)
+        ax.plot(*amplitudes(result, sensor or result.sensors[0], quantity), color=VERMILION, linewidth=1.2)
+        ax.set_xlabel(TIME if nondimensional else "time (s)")
+        ax.set_ylabel(f"amplitude,\n{_label(quantity, nondimensional)}")
+        ax.set_xlim(result.time[0], result.time[-1])
+        ax.set_ylim(bottom=0.0)
+        _powers(ax, "y")
+        return ax
+
+
+def amplitude_spectrum(
+    result: Response,
+    ax: "Axes | None" = None,
+    sensor: str | None = None,
+    quantity: Quantity = "displacement",
+    nondimensional: bool = True,
+) -> "Axes":
+    """Draw the amplitude spectrum of one quantity at a sensor, as far as its lines reach.
+
+    Parameters
+    ----------
+    result : Response
+    ax : Axes, optional
+    sensor : str, optional
+        Name; by default the first.
+    quantity : {"displacement", "rate", "acceleration", "slope", "slope_rate"}
+    nondimensional : bool
+
+    Returns
+    -------
+    Axes
+    """
+    with style():
+        ax = axes(ax)
+        omega, amplitude = spectrum(result, sensor or result.sensors[0], quantity)
+        largest = float(amplitude.max()) or 1.0
+        ax.semilogy(omega, np.maximum(amplitude, FAINT * largest), color=BLUE, linewidth=1.0)
+        loud = omega[amplitude > AUDIBLE * largest]
+        ax.set_xlim(0.0, min(1.3 * float(loud.max(initial=0.0)) or omega[-1], omega[-1]))
+        ax.set_ylim(AUDIBLE / 10 * largest, 2 * largest)
+        unit = r"angular frequency $\omega\sqrt{mL^4/EI}$" if nondimensional else "angular frequency ω (rad/s)"
+        ax.set_xlabel(unit)
+        ax.set_ylabel(f"amplitude,\n{_label(quantity, nondimensional)}")
+        return ax
+
+
 def amplitude_map(result: AmplitudeMap, ax: "Axes | None" = None, nondimensional: bool = True) -> "Axes":
     """Draw the largest motion at a sensor over thrust and force, its colour logarithmic.
 
@@ -122,6 +195,10 @@ def _label(quantity: str, nondimensional: bool) -> str:
         "acceleration": r"acceleration $\mathrm{d}^2(y/L)/\mathrm{d}\bar t^2$",
         "slope": "slope $y'$ (rad)",
         "slope_rate": r"slope rate $\mathrm{d}y'/\mathrm{d}\bar t$",
+        "rigid_displacement": "of rigid body $y/L$",
+        "elastic_displacement": "elastic $y/L$",
+        "rigid_slope": "of rigid body $y'$",
+        "elastic_slope": "elastic $y'$",
     }
     si = {
         "displacement": "displacement (m)",
@@ -129,5 +206,9 @@ def _label(quantity: str, nondimensional: bool) -> str:
         "acceleration": "acceleration (m/s²)",
         "slope": "slope (rad)",
         "slope_rate": "slope rate (rad/s)",
+        "rigid_displacement": "of rigid body (m)",
+        "elastic_displacement": "elastic (m)",
+        "rigid_slope": "of rigid body (rad)",
+        "elastic_slope": "elastic (rad)",
     }
     return (dimensionless if nondimensional else si)[quantity]

@@ -1,16 +1,18 @@
 """Instability charts of a pulsating thrust: tongues of growth that start from the resonances."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from beal.plot.style import GREY, axes, style, thrust_unit
+from beal.plot.style import BLUE, GREY, VERMILION, axes, style, thrust_unit
+from beal.stability.floquet import Floquet
 from beal.study.pulsating import chart_resonances
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from xarray import Dataset
 
+MARGIN = 1 + 1e-9  # modulus from which on a multiplier of an unstable vehicle is drawn as one that grows
 CROWDED = 0.035  # share of the width below which the name of a resonance would cover the one before
 
 
@@ -47,6 +49,42 @@ def floquet_chart(chart: "Dataset", ax: "Axes | None" = None) -> "Axes":
         ax.set_xlabel("angular frequency $\\Omega$" + ("" if nondimensional else " (rad/s)"))
         ax.set_ylabel("amplitude $P_1 L^2/EI$" if nondimensional else f"amplitude $P_1$ ({unit})")
         ax.figure.colorbar(mesh, ax=ax, label=f"growth rate{rate}")
+        return ax
+
+
+def multipliers(found: Floquet, ax: "Axes | None" = None) -> "Axes":
+    """Draw the Floquet multipliers of one pulsation beside the unit circle, those outside it in another colour.
+
+    Parameters
+    ----------
+    found : Floquet
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    with style():
+        ax = axes(ax)
+        turn = np.linspace(0.0, 2 * np.pi, 361)
+        ax.plot(np.cos(turn), np.sin(turn), color=GREY, linewidth=0.8, zorder=1)
+        outside = np.zeros(len(found.multipliers), dtype=bool) if found.stable else np.abs(found.multipliers) > MARGIN
+        groups = (("o", BLUE, ~outside, "on or inside"), ("D", VERMILION, outside, "outside: grows"))
+        for mark, color, these, name in groups:
+            points = found.multipliers[these]
+            if len(points):
+                look: dict[str, Any] = {
+                    "markerfacecolor": "white",
+                    "markeredgewidth": 1.4,
+                    "linestyle": "none",
+                    "zorder": 3,
+                }
+                ax.plot(points.real, points.imag, mark, color=color, markersize=6, label=name, **look)
+        reach = 1.15 * max(1.0, found.largest_modulus)
+        ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
+        ax.set_xlabel("real part of the multipliers")
+        ax.set_ylabel("imaginary part")
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.2)
         return ax
 
 

@@ -197,12 +197,16 @@ def _with_tables(data: dict[str, Any], folder: Path, found: list[tuple[str, str]
     content = dict(data)
     if "timeline" in data:
         content["timeline"] = beside(data["timeline"], "timeline", read_timeline, None)
+
+    def with_table(part: Any, name: str) -> Any:
+        if not (isinstance(part, dict) and isinstance(signal := part.get("signal"), dict) and _is_a_file(signal)):
+            return part
+        return part | {"signal": beside(signal, f"{name}.signal", _read_signal, {"kind": "step", "amplitude": 0.0})}
+
     if isinstance(forces := data.get("force"), list):
-        content["force"] = list(forces)
-        for n, force in enumerate(forces):
-            if isinstance(force, dict) and isinstance(signal := force.get("signal"), dict) and _is_a_file(signal):
-                table = beside(signal, f"force[{n}].signal", _read_signal, {"kind": "step", "amplitude": 0.0})
-                content["force"][n] = force | {"signal": table}
+        content["force"] = [with_table(force, f"force[{n}]") for n, force in enumerate(forces)]
+    if "thrust" in data:
+        content["thrust"] = with_table(data["thrust"], "thrust")
     return content
 
 

@@ -225,6 +225,8 @@ class Thrust(Part):
         second for a supported one.
     nominal : float, optional
         The thrust of normal operation, in N, used for margins and responses.
+    signal : Signal, optional
+        What a response adds to the nominal thrust over time, in N, as of a force; all else speaks of constant thrust.
     """
 
     tangency: Annotated[FiniteFloat, si(""), Field(ge=0, le=2)] = 1.0
@@ -235,6 +237,13 @@ class Thrust(Part):
     axial_term: Literal["engesser", "haringx"] = "engesser"
     axial_force: Literal["inertia", "constant"] | None = None
     nominal: Annotated[FiniteFloat, si("N"), POSITIVE] | None = None
+    signal: Signal | None = None
+
+    @model_validator(mode="after")
+    def _varies_about_a_thrust(self) -> "Thrust":
+        if self.signal is not None and self.nominal is None:
+            raise ValueError("signal: is added to the nominal thrust, which is missing; give nominal")
+        return self
 
 
 class Damping(Part):

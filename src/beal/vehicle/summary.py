@@ -75,6 +75,7 @@ def summary(vehicle: Vehicle) -> dict[str, Any]:
         "thrust_station": vehicle.length if vehicle.thrust.station is None else vehicle.thrust.station,
         "thrust_share": vehicle.thrust.scale,
         "nominal_thrust": vehicle.thrust.nominal,
+        "thrust_signal": vehicle.thrust.signal and vehicle.thrust.signal.model_dump(),
         "damping_ratios": vehicle.damping.ratios,
         "stages": _stages(vehicle),
         "joints": _joints(vehicle),
