@@ -23,6 +23,7 @@ ROOMS = [
     "plot",
     "report",
     "paper",
+    "web",
     "cli",
 ]
 LONGEST = 400

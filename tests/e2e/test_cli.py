@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 import xarray
 
-from beal.cli.output import digits, emit, new_file, quantity
+from beal.cli.output import emit, new_file
 from beal.discretisation import FORMULATIONS
 from beal.errors import ModelError
 from beal.interop.files import load
+from beal.report.numbers import digits, quantity
 from beal.vehicle import Thrust, catalog
 from beal.vehicle.file import loads
 

@@ -9,8 +9,9 @@ import typer
 
 from beal.cli.figures import control_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Model, Table
-from beal.cli.output import emit, new_path, new_result, note, quantity, show_table
+from beal.cli.output import emit, new_path, new_result, note, show_table
 from beal.errors import ModelError
+from beal.report.numbers import quantity
 
 if TYPE_CHECKING:
     from beal.control import ClosedLoop, ControlledThrust, Margins

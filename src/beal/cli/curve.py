@@ -25,6 +25,7 @@ def curve(
     """Frequency and growth rate of each mode, followed over the thrust."""
     from beal.interop import results
     from beal.interop.files import load
+    from beal.report.records import curve_record
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.curve import thrust_curve
 
@@ -38,8 +39,7 @@ def curve(
             events = critical_events(vehicle, to, formulation)  # type: ignore[arg-type]
             draw(lambda: curve_figure(vehicle, found, first, events))
     if as_json:
-        data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
-        emit({**data, "units": vehicle.units, "file": str(output) if output else None, **named(figure)})
+        emit({**curve_record(vehicle, found), "file": str(output) if output else None, **named(figure)})
     elif output:
         note(f"{points} thrusts and {modes} modes written to {output}")
     else:

@@ -9,8 +9,9 @@ import typer
 
 from beal.cli.figures import floquet_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Model
-from beal.cli.output import check_folder, digits, emit, progress_bar
+from beal.cli.output import check_folder, emit, progress_bar
 from beal.errors import ModelError
+from beal.report.numbers import digits
 
 if TYPE_CHECKING:
     from xarray import Dataset

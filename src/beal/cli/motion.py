@@ -49,8 +49,9 @@ def response(
     from beal.discretisation.build import discretise
     from beal.interop import results
     from beal.interop.files import load
-    from beal.motion import PARTS, QUANTITIES
+    from beal.motion import QUANTITIES
     from beal.motion import response as motion_of
+    from beal.report.records import response_record
     from beal.stability.spectrum import spectrum
 
     vehicle = load(model)
@@ -66,22 +67,7 @@ def response(
         write(_columns(found), lambda: results.response(found))
         draw(lambda: response_figure(found, vehicle.units == "nondimensional", shown))
     if as_json:
-        whats = (*QUANTITIES, *PARTS)
-        sensors = {name: {what: getattr(found, what)[n] for what in whats} for n, name in enumerate(found.sensors)}
-        emit(
-            {
-                "time": found.time,
-                "sensors": sensors,
-                "method": found.method,
-                "step": found.step,
-                "thrust": found.thrust,
-                "thrust_history": found.thrust_history,
-                "growth_rate": growth,
-                "units": vehicle.units,
-                "file": str(output) if output else None,
-                **named(figure),
-            }
-        )
+        emit({**response_record(vehicle, found, growth), "file": str(output) if output else None, **named(figure)})
         return
     if growth is None:
         state = f"P from {found.thrust_history.min():.9g} to {found.thrust_history.max():.9g}"

@@ -1,8 +1,7 @@
-"""What the command prints and writes: strict JSON, tables, numbers with the digits that they deserve, whole files."""
+"""What the command prints and writes: strict JSON, tables, whole files."""
 
 import csv
 import json
-import math
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -11,26 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from beal.errors import ModelError
+from beal.report.numbers import plain
 
 if TYPE_CHECKING:
     import xarray
 
-MOST_DIGITS = 9
-
 
 def emit(data: dict[str, Any]) -> None:
     """Print one JSON object: arrays as lists, what is not finite as null."""
-    print(json.dumps(_plain(data), allow_nan=False))
-
-
-def _plain(value: Any) -> Any:
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    print(json.dumps(plain(data), allow_nan=False))
 
 
 def note(message: str) -> None:
@@ -57,36 +45,6 @@ def show_table(columns: Sequence[str], rows: Sequence[Sequence[object]], title: 
 def cell(value: object) -> str:
     """A value as a table shows it."""
     return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def digits(value: float, error: float | None) -> str:
-    """The number with as many digits as its error supports.
-
-    Examples
-    --------
-    >>> digits(106.43723149, 1e-9), digits(106.43723149, 0.004), digits(106.4, None)
-    ('106.437231', '106.44', '106.4')
-    """
-    if error is None or value == 0:
-        return f"{value:.6g}"
-    known = MOST_DIGITS
-    if error > 0:
-        known = math.floor(math.log10(abs(value))) - math.ceil(math.log10(2 * error)) + 1
-    return f"{value:#.{min(max(known, 1), MOST_DIGITS)}g}".rstrip(".")
-
-
-def quantity(value: float, unit: str, error: float | None = None) -> str:
-    """The number with its digits and a unit prefix, k or M.
-
-    Examples
-    --------
-    >>> quantity(106437.25, "N"), quantity(106.25, "")
-    ('106.437 kN', '106.25')
-    """
-    if not unit:
-        return digits(value, error)
-    factor, prefix = next(((f, p) for f, p in ((1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
-    return f"{digits(value / factor, None if error is None else error / factor)} {prefix}{unit}"
 
 
 @contextmanager

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from beal.cli.options import AsJson
-from beal.cli.output import digits, emit, progress_bar, show_table
+from beal.cli.output import emit, progress_bar, show_table
 from beal.errors import ConvergenceError, ModelError
+from beal.report.numbers import digits
 
 if TYPE_CHECKING:
     from beal.verification.case import Row
