@@ -1,5 +1,6 @@
 """``beal explore``: the explorer in the browser."""
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -32,6 +33,7 @@ def explore(
     def ready(address: str) -> None:
         if as_json:
             emit({"address": address})
+            sys.stdout.flush()  # whoever reads it waits for it
         else:
             note(f"the explorer is at {address}; Ctrl-C ends it")
 

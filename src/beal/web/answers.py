@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from beal.control import control_locus
-from beal.discretisation.build import discretise
+from beal.discretisation.build import RITZ, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
 from beal.motion import ModeShape
@@ -14,6 +14,7 @@ from beal.report.records import critical_record, curve_record, event_record, mod
 from beal.report.verdict import convention, searched, verdict
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.curve import thrust_curve
+from beal.stability.large import is_large
 from beal.stability.modes import converged_modes
 from beal.stability.spectrum import Spectrum, spectrum
 from beal.study.solve import solve_points
@@ -25,6 +26,7 @@ from beal.web.code import command_lines, python_lines
 from beal.web.vehicles import base_of, controls, described, opened, vehicle_of
 
 BEYOND = 1.3  # last thrust of a curve, over the critical one
+COARSE = 6  # degree on each of many segments: frequencies are good to some 1e-7
 DRAWN = 24  # points of a mode shape in each stage
 Answer = dict[str, Any]
 
@@ -74,7 +76,8 @@ def solve(question: ask.Solve) -> Answer:
     vehicle = vehicle_of(question)
     found = critical_thrust(vehicle, None, question.formulation)
     to = question.to or _shown(found)
-    operators = discretise(vehicle, question.formulation)
+    coarse = is_large(vehicle) and question.formulation not in RITZ
+    operators = discretise(vehicle, question.formulation, order=COARSE if coarse else None)
     count = min(question.modes, len(operators.M) - operators.rigid)
     curve = thrust_curve(operators, to, question.points, count, question.formulation)
     nominal = vehicle.thrust.nominal or 0.0

@@ -6,7 +6,7 @@ import { short } from "./numbers.js";
 // Okabe & Ito (2008), Color Universal Design
 const LIGHT = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 const DARK = ["#56B4E9", "#E69F00", "#2FC29B", "#CC79A7", "#F0E442", "#D55E00"];
-const CONFIG = { displayModeBar: false, responsive: true };
+const CONFIG = { displayModeBar: false };
 const Plotly = window.Plotly;
 
 export const colours = () => (document.documentElement.dataset.theme === "dark" ? DARK : LIGHT);
@@ -26,15 +26,24 @@ export function layout(x, y, more = {}) {
 
 export const drawn = new Map(); // name of a chart to the columns behind it
 
-export async function draw(name, traces, frame, columns) {
+export async function draw(name, traces, frame, columns, told) {
   drawn.set(name, columns);
-  await Plotly.react(document.getElementById(name), traces, frame, CONFIG);
+  const place = document.getElementById(name);
+  place.setAttribute("aria-label", `${told ?? ""} Its numbers are under save, CSV.`.trim());
+  await Plotly.react(place, traces, frame, CONFIG);
 }
 
 export function empty(name, message) {
   const none = { visible: false };
   const note = { text: message.replace(/(.{44}\S*)\s/g, "$1<br>"), showarrow: false, font: { color: ink("soft"), size: 12 }, xref: "paper", yref: "paper", x: 0.5, y: 0.5 };
-  return draw(name, [], layout(none, none, { annotations: [note] }), {});
+  return draw(name, [], layout(none, none, { annotations: [note] }), {}, message);
+}
+
+export function fitted() {
+  const resized = new ResizeObserver((places) => {
+    for (const { target } of places) if (target.data) Plotly.Plots.resize(target);
+  });
+  for (const place of document.querySelectorAll(".plot")) resized.observe(place);
 }
 
 export function saving() {
@@ -132,7 +141,8 @@ export function curve({ curve: found, critical, vehicle }, thrust) {
     columns[`growth_rate_${mode + 1}`] = found.growth_rate.map((row) => row[mode]);
   }
   const y = axis(found.units === "SI" ? "frequency (Hz)" : "angular frequency ω", { rangemode: "tozero" });
-  return draw("curve", traces, layout(axis(title, { range: [0, last / factor] }), y, { shapes, annotations }), columns);
+  const words = P > 0 ? `Frequencies of ${count} modes over thrust; ${kind} at ${short(P, 7)}.` : `Frequencies of ${count} modes over thrust; stable.`;
+  return draw("curve", traces, layout(axis(title, { range: [0, last / factor] }), y, { shapes, annotations }), columns, words);
 }
 
 function upright(x, dash, color) {
@@ -153,7 +163,7 @@ export function thrustLocus({ curve: found, critical }, thrust) {
     columns[`real_${mode + 1}`] = found.growth_rate.map((row) => row[mode]);
     columns[`imag_${mode + 1}`] = found.angular_frequency.map((row) => row[mode]);
   }
-  return draw("locus", traces, locusLayout(found.units, traces), columns);
+  return draw("locus", traces, locusLayout(found.units, traces), columns, "Roots over thrust.");
 }
 
 export function gainLocus(found, units) {
@@ -164,7 +174,7 @@ export function gainLocus(found, units) {
     columns[`imag_${root + 1}`] = y;
     return { type: "scatter", mode: "lines+markers", x, y, line: { color: colours()[root % 6], width: 1.5 }, marker: { size: found.values.map((value) => (value === 1 ? 8 : 3)) }, customdata: found.values, hovertemplate: `${found.over} %{customdata:.4g}<br>s = %{x:.4g} + %{y:.4g} i<extra></extra>` };
   });
-  return draw("locus", traces, locusLayout(units, traces), columns);
+  return draw("locus", traces, locusLayout(units, traces), columns, "Roots of the closed loop over the gain.");
 }
 
 function locusLayout(units, traces) {
@@ -184,8 +194,8 @@ export function motion(found, sensor) {
   const y = axis(si ? "deflection (m)" : "deflection y");
   const columns = { time: found.time, displacement: read.displacement, rate: read.rate };
   draw("response", [{ type: "scatter", mode: "lines", x: found.time, y: read.displacement, line, hovertemplate: "t %{x:.4g}<br>y %{y:.4g}<extra></extra>" }],
-    layout(axis(si ? "time (s)" : "time t"), y), columns);
+    layout(axis(si ? "time (s)" : "time t"), y), columns, `Deflection at ${sensor} over time.`);
   const ends = { type: "scatter", mode: "markers", x: [read.displacement[0]], y: [read.rate[0]], marker: { color: ink("ink"), size: 6, symbol: "circle-open" }, hovertemplate: "start<extra></extra>" };
   return draw("phase", [{ type: "scatter", mode: "lines", x: read.displacement, y: read.rate, line, hoverinfo: "skip" }, ends],
-    layout(axis(si ? "deflection (m)" : "deflection y"), axis(si ? "rate (m/s)" : "rate dy/dt")), columns);
+    layout(axis(si ? "deflection (m)" : "deflection y"), axis(si ? "rate (m/s)" : "rate dy/dt")), columns, `Rate over deflection at ${sensor}.`);
 }

@@ -27,7 +27,8 @@ const question = () => {
   return { model, values, choices, formulation };
 };
 
-const models = new Latest("model", (answer) => {
+const models = new Latest("model", (answer, asked) => {
+  if (JSON.stringify(asked) !== JSON.stringify(question())) return; // something has changed since, and is asked for
   model = answer;
   controls.show({ ...answer });
   byId("title").textContent = answer.vehicle.title;
@@ -320,6 +321,7 @@ async function begin() {
   byId("start").replaceChildren(...starts.map((name, n) => element("option", { value: n }, name)));
   if (!drawing.running) { byId("play").textContent = "Play"; byId("play").setAttribute("aria-pressed", "false"); }
   charts.saving();
+  charts.fitted();
   wire();
   const { model: first, examples } = await read("start");
   for (const name of examples) byId("example").append(element("option", { value: name }, name.replaceAll("_", " ")));

@@ -80,7 +80,7 @@ export class StabilityMap {
       const { P, kind, modes, status } = cell(n, m);
       [x[n], y[m], P ?? "", kind, ...modes, status].forEach((value, k) => Object.values(columns)[k].push(value));
     }));
-    await draw("map", [heat, borders(index, cell, x, y, this.axes), this.#here()], frame, columns);
+    await draw("map", [heat, borders(index, cell, x, y, this.axes), this.#here()], frame, columns, `Critical thrust over ${named(X.path)} and ${named(Y.path)}.`);
     if (!this.listening) {
       this.listening = true;
       this.place.on("plotly_click", ({ points: [point] }) => this.chosen(this.axes, [point.x, point.y]));
