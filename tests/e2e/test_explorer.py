@@ -19,6 +19,7 @@ playwright = pytest.importorskip("playwright.sync_api")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FLAGS = "--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking"
 FLAGS += " --disable-component-update --disable-sync"
+PATIENCE = 30_000  # ms, on a machine that does much else
 KR = "#q-joint-0-rotational_stiffness"
 
 pytestmark = pytest.mark.skipif(
@@ -38,6 +39,7 @@ def address():
 @pytest.fixture(scope="module")
 def browser():
     with playwright.sync_playwright() as engine:
+        playwright.expect.set_options(timeout=PATIENCE)
         chromium = engine.chromium.launch(executable_path=CHROMIUM, args=FLAGS.split())
         yield chromium
         chromium.close()
@@ -49,7 +51,7 @@ def page(browser, address):
     context = browser.new_context(viewport={"width": 1280, "height": 720}, accept_downloads=True)
     context.grant_permissions(["clipboard-read", "clipboard-write"])
     page = context.new_page()
-    page.set_default_timeout(8000)
+    page.set_default_timeout(PATIENCE)
     wrong = []
 
     def said(message):
@@ -72,7 +74,7 @@ def says(page, text):
 
 def until(page, condition):
     """Waits for it; the page's own rules forbid what playwright would wait by."""
-    deadline = time.monotonic() + 8
+    deadline = time.monotonic() + PATIENCE / 1000
     while not page.evaluate(condition):
         assert time.monotonic() < deadline, condition
         page.wait_for_timeout(50)

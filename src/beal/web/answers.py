@@ -17,10 +17,12 @@ from beal.stability.curve import thrust_curve
 from beal.stability.large import is_large
 from beal.stability.modes import converged_modes
 from beal.stability.spectrum import Spectrum, spectrum
+from beal.study.batch import WORTHWHILE
 from beal.study.solve import solve_points
 from beal.study.store import KINDS, STATUS
 from beal.study.study import Solve, Study
 from beal.vehicle.file import dumps
+from beal.vehicle.paths import value_at
 from beal.web import questions as ask
 from beal.web.code import command_lines, python_lines
 from beal.web.vehicles import base_of, controls, described, opened, vehicle_of
@@ -98,12 +100,15 @@ def map_points(question: ask.Map) -> Answer:
     one, other = question.axes
     if one == other:
         raise ModelError([("axes", f"must be two quantities, found {one} twice")])
+    vehicle = vehicle_of(question)
+    axes = {path: (value_at(vehicle, path),) for path in question.axes}
+    study = Study(vehicle, axes, Solve(formulation=question.formulation))
     points = np.array(question.points)
-    axes = {path: tuple(column.tolist()) for path, column in zip(question.axes, points.T, strict=True)}
-    study = Study(vehicle_of(question), axes, Solve(formulation=question.formulation))
-    found = solve_points(study, points)
+    few = WORTHWHILE - 1 if is_large(vehicle) else len(points)  # so few that no tables are made, which take long then
+    parts = [solve_points(study, points[n : n + few]) for n in range(0, len(points), few)]
     names = ("critical_thrust", "kind", "mode_low", "mode_high", "angular_frequency", "status")
-    return {**{name: found[name] for name in names}, "kinds": KINDS, "statuses": STATUS}
+    found = {name: np.concatenate([part[name] for part in parts]) for name in names}
+    return {**found, "kinds": KINDS, "statuses": STATUS}
 
 
 def response(question: ask.Response) -> Answer:

@@ -4,13 +4,17 @@ import socket
 import webbrowser
 from collections.abc import Callable
 from contextlib import asynccontextmanager
+from threading import Thread
 
 import uvicorn
 
 from beal.errors import ModelError
 from beal.vehicle.file import dumps
 from beal.vehicle.vehicle import Vehicle
+from beal.web.answers import map_points
 from beal.web.app import application
+from beal.web.examples import example_text
+from beal.web.questions import Map
 
 HOST = "127.0.0.1"
 
@@ -47,6 +51,7 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
 
     @asynccontextmanager
     async def announced(_):  # type: ignore[no-untyped-def]
+        Thread(target=_compile, daemon=True).start()
         ready(address)
         if browser:
             webbrowser.open(address)
@@ -55,3 +60,10 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
     app.router.lifespan_context = announced
     with listening:
         uvicorn.Server(uvicorn.Config(app, log_level="warning", lifespan="on")).run(sockets=[listening])
+
+
+def _compile() -> None:
+    """Solves a small map: where the kernels are compiled for the first time on this machine, that takes a while."""
+    axes = ("joint[0].rotational_stiffness", "joint[0].shear_stiffness")
+    points = tuple((10.0**n, 10.0**n) for n in range(1, 6))
+    map_points(Map(model=example_text("tsto"), axes=axes, points=points))

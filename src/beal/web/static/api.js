@@ -29,6 +29,7 @@ export async function read(name) {
 export class Latest {
   #busy = false;
   #next = null;
+  took = 0; // ms, of the last answer
 
   constructor(name, show, refuse) {
     Object.assign(this, { name, show, refuse });
@@ -44,8 +45,11 @@ export class Latest {
     while (this.#next) {
       const question = this.#next;
       this.#next = null;
+      const began = performance.now();
       try {
-        this.show(await ask(this.name, question), question);
+        const answer = await ask(this.name, question);
+        this.took = performance.now() - began;
+        this.show(answer, question);
       } catch (error) {
         if (!(error instanceof Refused)) {
           this.#busy = false;

@@ -128,7 +128,7 @@ export function curve({ curve: found, critical, vehicle }, thrust) {
   }
   if (vehicle.nominal_thrust && vehicle.nominal_thrust < last) {
     shapes.push(upright(vehicle.nominal_thrust / factor, "dot", ink("soft")));
-    annotations.push({ x: vehicle.nominal_thrust / factor, y: 1, yref: "paper", text: "nominal", showarrow: false, xanchor: "right", yanchor: "top", font: { color: ink("soft") } });
+    annotations.push({ x: vehicle.nominal_thrust / factor, y: 1, yref: "paper", text: "nominal", showarrow: false, xanchor: vehicle.nominal_thrust > 0.15 * last ? "right" : "left", xshift: vehicle.nominal_thrust > 0.15 * last ? 0 : 10, yanchor: "top", font: { color: ink("soft") } });
   }
   shapes.push(upright(thrust / factor, "solid", ink("accent")));
   for (let mode = 0; mode < count; mode += 1) {

@@ -55,7 +55,7 @@ export class Drawing {
     this.bodies = vehicle.stages.map((stage) => ({ stage, widths: widths(stage, stiffest), path: this.#add("path", { class: "body" }, stage.name) }));
     this.riders = [];
     const heaviest = vehicle.mass;
-    for (const tank of vehicle.tanks) this.#rider(tank.from, "rect", { class: "tank", width: this.#scale * (tank.to - tank.from), height: HALF, y: -HALF / 2 }, `tank ${tank.name}`, false);
+    this.tanks = vehicle.tanks.map((tank) => ({ tank, path: this.#add("path", { class: "tank" }, `tank ${tank.name}`) }));
     for (const mass of vehicle.point_masses) this.#rider(mass.station, "circle", { class: "mass", r: 4 + 26 * Math.sqrt(mass.mass / heaviest) }, `mass ${mass.name} ${short(mass.mass)}`);
     for (const sensor of vehicle.sensors) this.#rider(sensor.station, "path", { class: "sensor", d: `M0 ${HALF + 3}l7 12h-14z` }, sensor.name, true, HALF + 28);
     for (const force of vehicle.forces) this.#rider(force.station, "path", { class: "force", d: `M0 ${-HALF - 30}v20m-4 -7l4 8l4 -8z` }, force.name || `F(t), ${force.kind}`, true, -HALF - 34);
@@ -174,6 +174,10 @@ export class Drawing {
       const [[x, y], [u, v]] = [bent[stage][n], bent[stage][n + 1]];
       return [x + (place - n) * (u - x), y + (place - n) * (v - y), Math.atan2(v - y, u - x)];
     };
+    for (const { tank, path } of this.tanks) {
+      const points = Array.from({ length: 13 }, (_, n) => at(tank.from + (n / 12) * (tank.to - tank.from)));
+      path.setAttribute("d", outline(points, () => HALF / 3));
+    }
     const degrees = 180 / Math.PI;
     for (const { station, holder } of this.riders) {
       const [x, y] = at(station);

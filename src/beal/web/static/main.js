@@ -78,6 +78,7 @@ function changed(part) {
   const vehicle = ["model", "values", "choices", "formulation", "thrust"].some((name) => name in part);
   if (vehicle) {
     solutions.ask({ ...question(), thrust: now.thrust });
+    map.stop();
     clearTimeout(resting);
     resting = setTimeout(() => models.ask(question()), solved ? REST : 0);
   } else if (solved && "mode" in part) motionShown();
@@ -156,7 +157,7 @@ function slower() {
       map.mark(map.now.map((value) => (value === "inf" ? null : value)));
       map.show({ ...question(), values }, axes, model.vehicle.units);
     } else charts.empty("map", "a map needs two quantities");
-  }, 180);
+  }, Math.min(Math.max(4 * solutions.took, 180), 2000));
 }
 
 function duration() {
@@ -171,7 +172,8 @@ function mapAxes() {
   const { quantities } = model;
   const there = (path) => quantities.find((quantity) => quantity.path === path);
   const chosen = (state.now.axes ?? []).map(there);
-  const preferred = ["joint[0].rotational_stiffness", "joint[0].shear_stiffness", "thrust.tangency", "stage[0].bending_stiffness", "stage[0].length"].map(there).filter(Boolean);
+  const soft = Math.max(0, model.vehicle.joints.findIndex((joint) => joint.rotational_stiffness !== "rigid" || joint.shear_stiffness !== "rigid"));
+  const preferred = [`joint[${soft}].rotational_stiffness`, `joint[${soft}].shear_stiffness`, "thrust.tangency", "stage[0].bending_stiffness", "stage[0].length"].map(there).filter(Boolean);
   const [x = preferred[0], y = preferred.find((quantity) => quantity !== (chosen[0] ?? preferred[0]))] = chosen;
   return [x, y].filter(Boolean);
 }

@@ -4,7 +4,7 @@ import { Refused, ask } from "./api.js";
 import { axis, draw, empty, ink, layout, thrustAxis } from "./charts.js";
 import { named } from "./numbers.js";
 
-const LEVELS = [9, 17, 33, 65]; // points along each axis
+const LEVELS = [5, 9, 17, 33, 65]; // points along each axis
 const PATIENCE = 250; // ms for one question
 const CIVIDIS = "Cividis";
 
@@ -13,10 +13,14 @@ export class StabilityMap {
 
   constructor(progress, stopButton, chosen) {
     Object.assign(this, { progress, stopButton, chosen });
-    stopButton.addEventListener("click", () => this.stop());
+    stopButton.addEventListener("click", () => {
+      this.ended = this.key;
+      this.stop();
+    });
     this.place = document.getElementById("map");
   }
 
+  // Until `show` is called again, which goes on where it was; for good where the user wants it.
   stop() {
     this.#stop?.abort();
     this.#stop = null;
@@ -26,13 +30,13 @@ export class StabilityMap {
   // `axes` are two quantities; everything else is in the question.
   async show(question, axes, units) {
     const key = JSON.stringify([question, axes.map(({ path, from, to }) => [path, from, to])]);
-    if (key === this.key) return;
+    if (key === this.key && (this.#stop || key === this.ended)) return;
     this.stop();
     const stop = new AbortController();
-    Object.assign(this, { key, axes, units, found: new Map(), level: 0 });
+    if (key !== this.key) Object.assign(this, { key, axes, units, found: new Map(), level: 0, ended: null });
     this.#stop = stop;
     this.stopButton.hidden = this.progress.hidden = false;
-    let many = 40;
+    let many = this.many ?? 2;
     try {
       for (const level of LEVELS.keys()) {
         const waiting = missing(level, this.found);
@@ -42,10 +46,12 @@ export class StabilityMap {
           const began = performance.now();
           const answer = await ask("map", { ...question, axes: axes.map(({ path }) => path), points }, stop.signal);
           const took = performance.now() - began;
-          many = Math.round(Math.min(Math.max((many * PATIENCE) / Math.max(took, 10), 8), many * 2, 600));
+          many = Math.round(Math.min(Math.max((part.length * PATIENCE) / Math.max(took, 10), 1), many * 3, 600));
+          this.many = many;
           part.forEach(([i, j], n) => this.found.set(`${i},${j}`, { P: answer.critical_thrust[n], kind: answer.kinds[answer.kind[n]], modes: [answer.mode_low[n], answer.mode_high[n]], status: answer.statuses[answer.status[n]] }));
           this.progress.value = this.found.size / LEVELS.at(-1) ** 2;
         }
+        if (level < this.level) continue;
         this.level = level;
         await this.draw();
       }
@@ -55,7 +61,10 @@ export class StabilityMap {
       this.key = null;
       await empty("map", error.message);
     }
-    if (this.#stop === stop) this.stop();
+    if (this.#stop === stop) {
+      this.ended = key;
+      this.stop();
+    }
   }
 
   async draw() {
