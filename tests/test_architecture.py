@@ -25,6 +25,7 @@ ROOMS = [
     "report",
     "notebook",
     "paper",
+    "web",
     "cli",
 ]
 LONGEST = 400

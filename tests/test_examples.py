@@ -1,5 +1,6 @@
 """What the README and the examples show is what happens."""
 
+import json
 import os
 import re
 import shlex
@@ -18,8 +19,10 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating")
-CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "control", "explorer", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating")
+CLUSTERS, CONTROL, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING = (
+    PAGES.get(name, "") for name in NAMES
+)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -87,6 +90,7 @@ def test_every_page_of_the_docs_is_executed():
     assert sorted(PAGES) == sorted([*NAMES, "verification"])
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", CONTROL, re.MULTILINE)) == {"toml", "console", "python"}
+    assert set(re.findall(r"^```(\w+)$", EXPLORER, re.MULTILINE)) == {"sh", "python"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
@@ -174,6 +178,19 @@ def test_the_python_of_the_page_on_pulsating_thrust_prints_what_it_says(readme_f
     (block,) = blocks("python", PULSATING)
     expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
     assert run([sys.executable, "-c", block], readme_folder).strip() == expected
+
+
+def test_the_explorer_of_its_page_answers_as_it_says(readme_folder):
+    (opened,), (asked,) = blocks("sh", EXPLORER), blocks("python", EXPLORER)
+    command = [*BEAL, *shlex.split(opened)[1:], "--no-browser", "--json"]
+    with subprocess.Popen(command, cwd=readme_folder, stdout=subprocess.PIPE, text=True) as server:
+        address = json.loads(server.stdout.readline())["address"]
+        try:
+            printed = run([sys.executable, "-c", asked.replace("http://127.0.0.1:8050/", address)], readme_folder)
+        finally:
+            server.send_signal(signal.SIGINT)
+        assert server.wait(timeout=20) == 130
+    assert printed.strip() == re.findall(r"#\s*(.+)$", asked, re.MULTILINE)[-1]
 
 
 @pytest.fixture

@@ -68,3 +68,13 @@ def test_mode_that_diverges_grows_without_frequency():
     curve = thrust_curve(catalog.tsto(0.6, 1.0, 1e4), to=40.0, points=21, modes=2)
     assert curve.angular_frequency[-1, 0] == pytest.approx(0, abs=1e-9)
     assert curve.growth_rate[-1, 0] > 1
+
+
+def test_the_reduction_of_a_large_vehicle_keeps_its_curves(monkeypatch):
+    """Five digits, above the critical thrust too; the reduction to fewer modes alone has two."""
+    launcher = discretise(catalog.generic_small_launcher(), order=6)
+    found = thrust_curve(launcher, to=9e7, points=4)
+    monkeypatch.setattr("beal.stability.curve.MANY", len(launcher.M))
+    whole = thrust_curve(launcher, to=9e7, points=4)
+    assert found.angular_frequency == pytest.approx(whole.angular_frequency, rel=3e-5)
+    assert found.growth_rate == pytest.approx(whole.growth_rate, rel=3e-5, abs=1e-6)

@@ -11,6 +11,7 @@ from beal.cli.control import control
 from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
+from beal.cli.explore import explore
 from beal.cli.flight import flight
 from beal.cli.floquet import floquet
 from beal.cli.maps import map_study, reproduce
@@ -27,6 +28,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "flight": (flight, "beal flight launcher.toml --figure flight.png"),
     "control": (control, "beal control launcher.toml --thrust 90 --json"),
     "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
+    "explore": (explore, "beal explore tsto.toml"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "amplitude": (amplitude, "beal amplitude tsto.toml --duration 4 --thrust 10:120:45 --force 0:2:21"),

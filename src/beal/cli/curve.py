@@ -29,6 +29,7 @@ def curve(
 ) -> None:
     """Frequency and growth rate of each mode, followed over the thrust."""
     from beal.interop import results
+    from beal.report.records import curve_record
     from beal.stability.critical import critical_events, critical_thrust
     from beal.stability.curve import thrust_curve
 
@@ -45,8 +46,7 @@ def curve(
     if drawn:
         show_curve(vehicle, found)
     if as_json:
-        data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
-        emit({**data, "units": vehicle.units, "file": str(output) if output else None, **named(figure)})
+        emit({**curve_record(vehicle, found), "file": str(output) if output else None, **named(figure)})
     elif output:
         note(f"{points} thrusts and {found.angular_frequency.shape[1]} modes written to {output}")
     else:

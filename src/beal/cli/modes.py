@@ -37,6 +37,7 @@ def modes(
     """Frequencies and growth rates of the lowest elastic modes at a thrust."""
     from beal.discretisation.build import discretise
     from beal.interop.results import mode_shapes
+    from beal.report.records import modes_record
     from beal.stability.modes import converged_modes
     from beal.stability.spectrum import spectrum
 
@@ -50,24 +51,15 @@ def modes(
             if output:
                 dataset = mode_shapes(shapes, operators)
                 write(_columns(dataset), lambda: dataset)
-    order = found.angular_frequency.argsort(kind="stable")
-    omega, growth = found.angular_frequency[order], found.growth_rate[order] + 0.0  # no -0
-    si = vehicle.units == "SI"
-    data: dict[str, Any] = {
-        "angular_frequency": omega,
-        **({"frequency_hz": omega / (2 * math.pi)} if si else {}),
-        "growth_rate": growth,
-        "error_estimate": error,
-        "rigid_body_modes": found.rigid_body_modes,
-        "thrust": found.thrust,
-        "formulation": formulation,
-        "units": vehicle.units,
+    data = {
+        **modes_record(vehicle, found, error, formulation),
         **({"file": str(output)} if output else {}),
         **named(figure),
     }
     if as_json:
         emit(data)
         return
+    si, omega, growth = vehicle.units == "SI", data["angular_frequency"], data["growth_rate"]
     print(f"elastic modes at P = {found.thrust:.9g}{' N' if si else ''}; rigid-body modes: {found.rigid_body_modes}")
     errors = [None] * len(omega) if error is None else error.tolist()
     rows = [

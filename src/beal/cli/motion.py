@@ -60,6 +60,7 @@ def response(
     from beal.interop import results
     from beal.motion import PARTS
     from beal.motion import response as motion_of
+    from beal.report.records import response_record
     from beal.stability.spectrum import spectrum
 
     if told not in VIEWS:
@@ -91,22 +92,9 @@ def response(
             figures[caption] = partial(response_figure, swinging, plain, DRAWN[:1], drawing(kind))
         tell(vehicle, "motion at the sensors", answer, figures)
     if as_json:
-        emit(
-            {
-                axis: along,
-                "sensors": {
-                    name: {what: value[n] for what, value in values.items()} for n, name in enumerate(found.sensors)
-                },
-                "method": found.method,
-                "step": found.step,
-                "thrust": found.thrust,
-                "thrust_history": found.thrust_history,
-                "growth_rate": growth,
-                "units": vehicle.units,
-                "file": str(output) if output else None,
-                **named(figure, report),
-            }
-        )
+        sensors = {name: {what: value[n] for what, value in values.items()} for n, name in enumerate(found.sensors)}
+        beside = {"file": str(output) if output else None, **named(figure, report)}
+        emit({**response_record(vehicle, found, growth), axis: along, "sensors": sensors, **beside})
         return
     show(answer)
     if output:

@@ -1,8 +1,7 @@
-"""What the command prints and writes: strict JSON, tables, numbers with the digits that they deserve, whole files."""
+"""What the command prints and writes: strict JSON, tables, whole files."""
 
 import csv
 import json
-import math
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -11,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from beal.errors import ModelError
-from beal.report.numbers import cell
+from beal.report.numbers import cell, plain
 
 if TYPE_CHECKING:
     import xarray
@@ -31,17 +30,7 @@ Answer = Sequence[str | tuple[Sequence[str], Sequence[Sequence[object]]]]  # sen
 
 def emit(data: dict[str, Any]) -> None:
     """Print one JSON object: arrays as lists, what is not finite as null."""
-    print(json.dumps(_plain(data), allow_nan=False))
-
-
-def _plain(value: Any) -> Any:
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    print(json.dumps(plain(data), allow_nan=False))
 
 
 def note(message: str) -> None:

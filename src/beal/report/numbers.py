@@ -1,8 +1,26 @@
-"""Numbers with the digits that they deserve."""
+"""Numbers as people and as strict JSON read them."""
 
 import math
+from typing import Any
 
 MOST_DIGITS = 9
+
+
+def plain(value: Any) -> Any:
+    """A result as strict JSON takes it: arrays as lists, what is not finite as null.
+
+    Examples
+    --------
+    >>> plain({"thrust": (1.0, float("inf"))})
+    {'thrust': [1.0, None]}
+    """
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def digits(value: float, error: float | None) -> str:

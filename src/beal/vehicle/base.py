@@ -154,4 +154,27 @@ def si(unit: str) -> BeforeValidator:
             raise ValueError("must be a number, found nan")
         return value
 
+    parse.unit = unit  # type: ignore[attr-defined]  # for `unit_of`
     return BeforeValidator(parse)
+
+
+def unit_of(annotation: Any, marks: Iterable[Any] = ()) -> str:
+    """The SI unit of a field; empty for a pure number and for what is no number.
+
+    Parameters
+    ----------
+    annotation : type
+        Of the field.
+    marks : iterable
+        Those of the annotation itself, which pydantic keeps beside it.
+
+    Examples
+    --------
+    >>> from typing import Annotated
+    >>> unit_of(Annotated[float, si("N/m")] | None)
+    'N/m'
+    """
+    own = (*marks, *getattr(annotation, "__metadata__", ()))
+    found = [getattr(getattr(mark, "func", None), "unit", "") for mark in own]
+    found += map(unit_of, getattr(annotation, "__args__", ()))
+    return next(filter(None, found), "")

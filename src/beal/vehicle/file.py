@@ -4,6 +4,8 @@ import json
 import os
 import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,22 @@ from beal.vehicle.timeline_table import timeline_columns
 from beal.vehicle.vehicle import Vehicle
 
 LARGEST_FILE = 5_000_000  # bytes: a hundred thousand stages
+_readable: ContextVar[tuple[Path, ...] | None] = ContextVar("_readable", default=None)
+
+
+@contextmanager
+def reading_only(*folders: Path) -> Iterator[None]:
+    """While it holds, no file outside these folders is read, whatever a model or a deck names.
+
+    Parameters
+    ----------
+    *folders : Path
+    """
+    token = _readable.set(tuple(folder.resolve() for folder in folders))
+    try:
+        yield
+    finally:
+        _readable.reset(token)
 
 
 def loads(text: str, source: str = "model") -> Vehicle:
@@ -128,6 +146,7 @@ def read_bytes(path: str | os.PathLike[str], largest: int, expected: str) -> byt
         With the reason why the file cannot be read.
     """
     source = str(path)
+    _check_readable(path)
     try:
         with Path(path).open("rb") as file:
             content = file.read(largest + 1)
@@ -138,6 +157,15 @@ def read_bytes(path: str | os.PathLike[str], largest: int, expected: str) -> byt
     if len(content) > largest:
         raise ModelError(f"is larger than {largest // 10**6} MB: expected {expected}", source)
     return content
+
+
+def _check_readable(path: str | os.PathLike[str]) -> None:
+    folders = _readable.get()
+    if folders is None:
+        return
+    inside = "\0" not in str(path) and any(Path(path).resolve().is_relative_to(folder) for folder in folders)
+    if not inside:
+        raise ModelError("is not read here; put its content into the model", str(path))
 
 
 def vehicle_from(data: dict[str, Any], source: str) -> Vehicle:

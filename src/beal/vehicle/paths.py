@@ -11,7 +11,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import ValidationError
 
 from beal.errors import ModelError
-from beal.vehicle.base import Part, problems
+from beal.vehicle.base import Part, problems, unit_of
 from beal.vehicle.stations import StationTable
 from beal.vehicle.vehicle import Vehicle, metres
 
@@ -75,6 +75,25 @@ def value_at(vehicle: Vehicle, path: str) -> float:
     if value is None:
         raise ModelError([(path, "is not given and has no default")])
     return float(value)
+
+
+def unit_at(vehicle: Vehicle, path: str) -> str:
+    """Unit of the quantity at a path; empty where it is a pure number or the vehicle is nondimensional.
+
+    Examples
+    --------
+    >>> from beal.vehicle import Stage
+    >>> unit_at(Vehicle(stages=[Stage(length=1.0, mass_per_length=1.0, bending_stiffness=1.0)]), "stage[0].length")
+    'm'
+    """
+    if path == SPLIT or vehicle.units != "SI":
+        return ""
+    *parents, name = _resolved(vehicle, path)
+    part: Any = vehicle
+    for step in parents:
+        part = part[step] if isinstance(step, int) else getattr(part, step)
+    field = type(part).model_fields[name]
+    return unit_of(field.annotation, field.metadata)
 
 
 def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:

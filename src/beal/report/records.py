@@ -1,0 +1,118 @@
+"""Results as JSON objects, the same from the command and from the explorer."""
+
+import math
+from dataclasses import asdict
+from typing import Any
+
+from beal.motion import PARTS, QUANTITIES, Response
+from beal.stability.complete import Event
+from beal.stability.critical import CriticalThrust
+from beal.stability.curve import ThrustCurve
+from beal.stability.spectrum import Spectrum
+from beal.vehicle.vehicle import Vehicle
+
+
+def critical_record(vehicle: Vehicle, found: CriticalThrust) -> dict[str, Any]:
+    """What ``beal critical --json`` says of the first instability.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    found : CriticalThrust
+
+    Returns
+    -------
+    dict
+        The fields of the result; P L^2/EI and the margin over the nominal thrust, None where there is none.
+
+    Examples
+    --------
+    >>> from beal.stability.critical import critical_thrust
+    >>> from beal.vehicle.catalog import beck
+    >>> critical_record(beck(), critical_thrust(beck()))["kind"]
+    'flutter'
+    """
+    return {**asdict(found), **relative(vehicle, found), "units": vehicle.units}
+
+
+def relative(vehicle: Vehicle, found: CriticalThrust) -> dict[str, float | None]:
+    """P L^2/EI, and the margin over the nominal thrust."""
+    thrust, nominal = found.critical_thrust, vehicle.thrust.nominal
+    return {
+        "nondimensional_thrust": None if thrust is None else thrust / vehicle.scales.thrust,
+        "margin": None if thrust is None or nominal is None else thrust / nominal - 1,
+    }
+
+
+def event_record(event: Event) -> dict[str, Any]:
+    """One change of stability, as ``beal critical --all --json`` lists it."""
+    return {
+        "thrust": event.thrust,
+        "kind": event.kind,
+        "modes": event.modes,
+        "angular_frequency": math.sqrt(max(event.W, 0.0)),
+        "change": event.change,
+        "unstable": event.unstable,
+    }
+
+
+def curve_record(vehicle: Vehicle, found: ThrustCurve) -> dict[str, Any]:
+    """What ``beal curve --json`` says."""
+    names = ("thrust", "angular_frequency", "growth_rate", "formulation")
+    return {**{name: getattr(found, name) for name in names}, "units": vehicle.units}
+
+
+def modes_record(vehicle: Vehicle, found: Spectrum, error: Any, formulation: str) -> dict[str, Any]:
+    """What ``beal modes --json`` says, in order of frequency.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    found : Spectrum
+    error : ndarray or None
+        Of each angular frequency in ascending order.
+    formulation : str
+
+    Returns
+    -------
+    dict
+    """
+    order = found.angular_frequency.argsort(kind="stable")
+    omega = found.angular_frequency[order]
+    return {
+        "angular_frequency": omega,
+        **({"frequency_hz": omega / (2 * math.pi)} if vehicle.units == "SI" else {}),
+        "growth_rate": found.growth_rate[order] + 0.0,  # no -0
+        "error_estimate": error,
+        "rigid_body_modes": found.rigid_body_modes,
+        "thrust": found.thrust,
+        "formulation": formulation,
+        "units": vehicle.units,
+    }
+
+
+def response_record(vehicle: Vehicle, found: Response, growth: float | None) -> dict[str, Any]:
+    """What ``beal response --json`` says.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    found : Response
+    growth : float or None
+        Largest growth rate under a steady thrust, in 1/s.
+
+    Returns
+    -------
+    dict
+    """
+    whats = (*QUANTITIES, *PARTS)
+    return {
+        "time": found.time,
+        "sensors": {name: {what: getattr(found, what)[n] for what in whats} for n, name in enumerate(found.sensors)},
+        "method": found.method,
+        "step": found.step,
+        "thrust": found.thrust,
+        "thrust_history": found.thrust_history,
+        "growth_rate": growth,
+        "units": vehicle.units,
+    }
