@@ -1,6 +1,7 @@
 """Running the explorer on this machine."""
 
 import socket
+import warnings
 import webbrowser
 from collections.abc import Callable
 from contextlib import asynccontextmanager
@@ -9,6 +10,7 @@ from threading import Thread
 import uvicorn
 
 from beal.errors import ModelError
+from beal.motion import AliasingWarning
 from beal.vehicle.file import dumps
 from beal.vehicle.vehicle import Vehicle
 from beal.web.answers import map_points
@@ -47,6 +49,7 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
             [("--port", f"{port} cannot be used: {error}; leave it out to take any that is free")]
         ) from None
     address = f"http://{HOST}:{listening.getsockname()[1]}/"
+    warnings.simplefilter("ignore", AliasingWarning)  # of a chart: what it leaves out is finer than its line
     app = application(dumps(vehicle) if vehicle else "")
 
     @asynccontextmanager
