@@ -40,7 +40,7 @@ QUESTIONS: dict[str, tuple[type[Part], Answering]] = {
     "solve": (ask.Solve, answers.solve),
     "critical": (ask.Critical, answers.critical),
     "curve": (ask.Curve, answers.curve),
-    "modes": (ask.Modes_, answers.modes),
+    "modes": (ask.Modes, answers.modes),
     "map": (ask.Map, answers.map_points),
     "response": (ask.Response, answers.response),
     "locus": (ask.Locus, answers.locus),
