@@ -138,6 +138,15 @@ def test_an_error_stands_beside_its_field(page):
     playwright.expect(page.locator('.error[data-path="formulation"]')).to_contain_text("two stages")
 
 
+def test_what_is_being_typed_is_not_overwritten_by_an_answer(page):
+    put(page, KR, "300")
+    page.fill("#q-stage-split", "0.8")
+    page.wait_for_timeout(1500)  # in which the answers to the first change come
+    assert page.input_value("#q-stage-split") == "0.8"
+    page.press("#q-stage-split", "Enter")
+    says(page, "106.472038")
+
+
 def test_changes_are_undone_and_redone(page):
     put(page, KR, "1")
     says(page, "Diverges at")

@@ -64,7 +64,7 @@ def curve(question: ask.Curve) -> Answer:
     return curve_record(vehicle, found)
 
 
-def modes(question: ask.Modes_) -> Answer:
+def modes(question: ask.Modes) -> Answer:
     """Frequencies at a thrust, as ``beal modes --json`` gives them, and the mode shapes."""
     vehicle = vehicle_of(question)
     found, error = converged_modes(vehicle, question.thrust, question.count, question.formulation)

@@ -33,6 +33,7 @@ from beal.web.openapi import description
 LONGEST = 20.0  # seconds that an answer may take
 KEPT = 20_000  # bytes of a question whose answer is remembered
 STATIC = Path(str(files("beal.web") / "static"))
+PLOTLY = Path(str(files("plotly") / "package_data" / "plotly.min.js"))
 Answering = Callable[[Any], dict[str, Any]]
 QUESTIONS: dict[str, tuple[type[Part], Answering]] = {
     "model": (ask.Question, answers.model),
@@ -40,7 +41,7 @@ QUESTIONS: dict[str, tuple[type[Part], Answering]] = {
     "solve": (ask.Solve, answers.solve),
     "critical": (ask.Critical, answers.critical),
     "curve": (ask.Curve, answers.curve),
-    "modes": (ask.Modes_, answers.modes),
+    "modes": (ask.Modes, answers.modes),
     "map": (ask.Map, answers.map_points),
     "response": (ask.Response, answers.response),
     "locus": (ask.Locus, answers.locus),
@@ -76,7 +77,7 @@ def application(first: str = "") -> Starlette:
         return FileResponse(STATIC / "index.html")
 
     async def plotly(request: Request) -> Response:
-        return FileResponse(Path(str(files("plotly") / "package_data" / "plotly.min.js")))
+        return FileResponse(PLOTLY)
 
     async def openapi(request: Request) -> Response:
         return JSONResponse(description(QUESTIONS))

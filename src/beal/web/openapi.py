@@ -46,7 +46,7 @@ def description(questions: Mapping[str, tuple[type[Part], Callable[[Any], Any]]]
     for name, (kind, answer) in questions.items():
         schema = kind.model_json_schema(ref_template="#/components/schemas/{model}")
         schemas |= schema.pop("$defs", {})
-        title = kind.__name__.strip("_")
+        title = kind.__name__
         schemas[title] = schema
         operation = _operation(name, (answer.__doc__ or "").split("\n")[0])
         operation["requestBody"] = {"required": True, "content": _json({"$ref": f"#/components/schemas/{title}"})}

@@ -11,7 +11,7 @@ MODEL, FILE = 500_000, 5_000_000  # characters of a model, and bytes of a file i
 Path = Annotated[str, Field(max_length=120)]
 Thrust = Annotated[FiniteFloat, Field(ge=0, le=1e15)]
 Positive = Annotated[FiniteFloat, Field(gt=0, le=1e15)]
-Modes = Annotated[int, Field(ge=1, le=8)]
+Count = Annotated[int, Field(ge=1, le=8)]
 
 
 class Question(Part):
@@ -46,14 +46,14 @@ class Curve(Question):
 
     to: Positive | None = None
     points: Annotated[int, Field(ge=2, le=401)] = 61
-    modes: Modes = 4
+    modes: Count = 4
 
 
-class Modes_(Question):
+class Modes(Question):
     """Frequencies at a thrust, converged."""
 
     thrust: Thrust = 0.0
-    count: Modes = 4
+    count: Count = 4
 
 
 class Solve(Curve):

@@ -1,14 +1,18 @@
 """Running the explorer on this machine."""
 
 import socket
+import warnings
 import webbrowser
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from functools import partial
 from threading import Thread
 
 import uvicorn
+from starlette.applications import Starlette
 
 from beal.errors import ModelError
+from beal.motion import AliasingWarning
 from beal.vehicle.file import dumps
 from beal.vehicle.vehicle import Vehicle
 from beal.web.answers import map_points
@@ -38,28 +42,28 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
     ModelError
         If the port is taken.
     """
-    listening = socket.socket()
-    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        listening.bind((HOST, port))
-    except (OSError, OverflowError) as error:
-        raise ModelError(
-            [("--port", f"{port} cannot be used: {error}; leave it out to take any that is free")]
-        ) from None
-    address = f"http://{HOST}:{listening.getsockname()[1]}/"
-    app = application(dumps(vehicle) if vehicle else "")
-
-    @asynccontextmanager
-    async def announced(_):  # type: ignore[no-untyped-def]
-        Thread(target=_compile, daemon=True).start()
-        ready(address)
-        if browser:
-            webbrowser.open(address)
-        yield
-
-    app.router.lifespan_context = announced
-    with listening:
+    with socket.socket() as listening:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((HOST, port))
+            listening.listen()  # who comes before the server is ready waits
+        except (OSError, OverflowError) as error:
+            message = f"{port} cannot be used: {error}; leave it out to take any that is free"
+            raise ModelError([("--port", message)]) from None
+        address = f"http://{HOST}:{listening.getsockname()[1]}/"
+        warnings.simplefilter("ignore", AliasingWarning)  # of a chart: what it leaves out is finer than its line
+        app = application(dumps(vehicle) if vehicle else "")
+        app.router.lifespan_context = partial(_announced, address, browser, ready)
         uvicorn.Server(uvicorn.Config(app, log_level="warning", lifespan="on")).run(sockets=[listening])
+
+
+@asynccontextmanager
+async def _announced(address: str, browser: bool, ready: Callable[[str], None], app: Starlette) -> AsyncIterator[None]:
+    Thread(target=_compile, daemon=True).start()
+    ready(address)
+    if browser:
+        webbrowser.open(address)
+    yield
 
 
 def _compile() -> None:

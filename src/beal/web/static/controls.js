@@ -95,6 +95,7 @@ class Quantity {
     this.slider.addEventListener("input", () => state.value(this.path, Number(this.#at(this.slider.valueAsNumber).toPrecision(6))));
     this.slider.addEventListener("change", () => state.keep());
     this.number.addEventListener("change", () => {
+      this.shown = this.number.value;
       const text = this.number.value.trim();
       state.value(this.path, text === "" || Number.isNaN(Number(text)) ? text : Number(text));
       state.keep();
@@ -113,7 +114,8 @@ class Quantity {
       const share = this.scale === "log" ? Math.log(value / this.from) / Math.log(this.to / this.from) : (value - this.from) / (this.to - this.from);
       this.slider.value = Math.round(STEPS * Math.min(Math.max(share, 0), 1));
     }
-    if (document.activeElement !== this.number || typeof value === "number") this.number.value = value === null ? "" : typeof value === "number" ? short(value, 6) : value;
+    const typing = document.activeElement === this.number && this.number.value !== this.shown;
+    if (!typing) this.number.value = this.shown = value === null ? "" : typeof value === "number" ? short(value, 6) : value;
     this.slider.setAttribute("aria-valuetext", this.number.value || "not given");
     this.slider.disabled = rigid;
     if (this.rigid) this.rigid.checked = rigid;

@@ -8,6 +8,7 @@ const HALF = 17; // half the width of the stiffest section
 const BEND = 46; // largest deflection
 const PERIOD = 1.7; // s on the screen
 const PERIODS = 4; // after which a motion that grows begins anew
+const GROWTH = 1.5; // the largest that is drawn until then, as a power of e: stronger growth would hide how it begins
 
 export class Drawing {
   #frame = null;
@@ -37,7 +38,7 @@ export class Drawing {
 
   #fit() {
     const { width, height } = this.svg.getBoundingClientRect();
-    this.wide = Math.max((HIGH * width) / Math.max(height, 1), 400);
+    this.wide = Math.max((HIGH * width) / Math.max(height, 1), 760);
     this.svg.setAttribute("viewBox", `0 0 ${this.wide} ${HIGH}`);
     if (this.vehicle) this.#build();
   }
@@ -152,9 +153,10 @@ export class Drawing {
       return [Math.exp(3 * (share - 1)) * (sigma > 0 ? 1 : 0.3), 0];
     }
     const angle = (2 * Math.PI * t) / PERIOD;
-    const rate = (sigma / w) * ((2 * Math.PI) / PERIOD);
+    const most = GROWTH / span;
+    const rate = Math.min(Math.max((sigma / w) * ((2 * Math.PI) / PERIOD), -most), most);
     const part = t % span;
-    const size = rate > 0 ? Math.exp(Math.max(rate * (part - span), -40)) : Math.exp(Math.max(rate * part, -40));
+    const size = Math.exp(rate > 0 ? rate * (part - span) : rate * part);
     return [size * Math.cos(angle), -size * Math.sin(angle)];
   }
 

@@ -6,7 +6,8 @@ import { named } from "./numbers.js";
 
 const LEVELS = [5, 9, 17, 33, 65]; // points along each axis
 const PATIENCE = 250; // ms for one question
-const CIVIDIS = "Cividis";
+const PAINTED = 700; // ms from one look at a level that is not complete to the next
+const UNSOLVED = { P: null, kind: "", modes: ["", ""], status: "not solved yet" };
 
 export class StabilityMap {
   #stop = null;
@@ -49,6 +50,7 @@ export class StabilityMap {
           many = Math.round(Math.min(Math.max((part.length * PATIENCE) / Math.max(took, 10), 1), many * 3, 600));
           this.many = many;
           part.forEach(([i, j], n) => this.found.set(`${i},${j}`, { P: answer.critical_thrust[n], kind: answer.kinds[answer.kind[n]], modes: [answer.mode_low[n], answer.mode_high[n]], status: answer.statuses[answer.status[n]] }));
+          if (performance.now() > (this.next ?? 0) && level === this.level) await this.draw();
           this.progress.value = this.found.size / LEVELS.at(-1) ** 2;
         }
         if (level < this.level) continue;
@@ -73,17 +75,18 @@ export class StabilityMap {
     const step = (LEVELS.at(-1) - 1) / (side - 1);
     const [X, Y] = this.axes;
     const index = Array.from({ length: side }, (_, n) => n * step);
-    const cell = (n, m) => this.found.get(`${index[n]},${index[m]}`);
+    const cell = (n, m) => this.found.get(`${index[n]},${index[m]}`) ?? UNSOLVED;
+    this.next = performance.now() + PAINTED;
     const solved = [...this.found.values()].map(({ P }) => P).filter((P) => P !== null);
     const [factor, title] = thrustAxis(Math.max(...solved, 0), this.units);
     const z = index.map((_, m) => index.map((_, n) => (cell(n, m).P === null ? null : cell(n, m).P / factor)));
     const text = index.map((_, m) => index.map((_, n) => told(cell(n, m))));
     const [x, y] = [index.map((i) => at(X, i)), index.map((j) => at(Y, j))];
     const heat = {
-      type: "heatmap", x, y, z, text, colorscale: CIVIDIS, hovertemplate: "%{text}<br>P %{z:.5g}<br>%{x:.4g}, %{y:.4g}<extra></extra>",
+      type: "heatmap", x, y, z, text, colorscale: "Cividis", hovertemplate: "%{text}<br>P %{z:.5g}<br>%{x:.4g}, %{y:.4g}<extra></extra>",
       colorbar: { title: { text: title, side: "right" }, thickness: 10, outlinewidth: 0, tickfont: { size: 10 } }, hoverongaps: true,
     };
-    const frame = layout(mapAxis(X), mapAxis(Y), { annotations: regions(index, cell, x, y, this.axes), margin: { l: 56, r: 4, t: 8, b: 36 } });
+    const frame = layout(mapAxis(X), mapAxis(Y), { annotations: regions(index, cell, x, y, this.axes, this.now ?? []), margin: { l: 56, r: 4, t: 8, b: 36 } });
     const columns = { [X.path]: [], [Y.path]: [], critical_thrust: [], kind: [], mode_low: [], mode_high: [], status: [] };
     index.forEach((_, m) => index.forEach((_, n) => {
       const { P, kind, modes, status } = cell(n, m);
@@ -142,7 +145,7 @@ function borders(index, cell, x, y, [X, Y]) {
 }
 
 // The name of each kind of instability, at the point of its region that is farthest from its border.
-function regions(index, cell, x, y, axes) {
+function regions(index, cell, x, y, axes, now) {
   const last = index.length - 1;
   const best = new Map();
   for (let m = 0; m <= last; m += 1) for (let n = 0; n <= last; n += 1) {
@@ -153,7 +156,9 @@ function regions(index, cell, x, y, axes) {
     if (reach > (best.get(name)?.reach ?? 0)) best.set(name, { reach, n, m });
   }
   const place = (values, n, { scale }) => (scale === "log" ? Math.log10(values[n]) : values[n]);
+  const share = (value, { from, to, scale }) => (scale === "log" ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from));
+  const hides = (n, m) => Math.abs(share(x[n], axes[0]) - share(now[0], axes[0])) < 0.25 && Math.abs(share(y[m], axes[1]) - share(now[1], axes[1])) < 0.1;
   return [...best].filter(([, { reach }]) => reach >= 0.06 * last).map(([text, { n, m }]) => ({
-    x: place(x, n, axes[0]), y: place(y, m, axes[1]), text, showarrow: false, font: { color: "#ffffff", size: 11 }, bgcolor: "rgba(0,0,0,.55)", borderpad: 2,
+    x: place(x, n, axes[0]), y: place(y, m, axes[1]), text, yshift: hides(n, m) ? -24 : 0, showarrow: false, font: { color: "#ffffff", size: 11 }, bgcolor: "rgba(0,0,0,.55)", borderpad: 2,
   }));
 }
