@@ -45,8 +45,7 @@ def model(written):
 def test_a_page_holds_question_model_answer_and_command_and_needs_nothing_else(model, beal_here, tmp_path, command):
     options, answer = RUNS[command]
     done = beal_here(command, model, *options, "--report", "run.html")
-    assert done.returncode == 0
-    assert done.stderr.endswith("beal: report written to run.html\n")
+    assert (done.returncode, done.stderr) == (0, "beal: report written to run.html\n")
     page = (tmp_path / "run.html").read_text(encoding="utf-8")
     assert "a &lt;stick&gt;</h1>" in page
     assert answer in page
@@ -79,19 +78,11 @@ def test_warnings_are_on_the_page_and_on_standard_error(model, beal, tmp_path):
     assert re.search(r'class="warning".*<li>the step 0.1 is longer than a tenth', page, re.DOTALL)
 
 
-def test_a_motion_too_short_for_a_spectrum_has_a_page_without_one(model, beal, tmp_path):
-    done = beal("response", model, "--duration", 1, "--step", 0.5, "--method", "exact", "--report", "run.html")
-    assert done.returncode == 0
-    page = (tmp_path / "run.html").read_text(encoding="utf-8")
-    assert "Histories</h2>" in page
-    assert "Spectra</h2>" not in page
-
-
 @pytest.mark.parametrize("command", RUNS)
 def test_another_ending_is_refused_before_any_work(model, beal_here, tmp_path, command):
     done = beal_here(command, model, *RUNS[command][0], "--report", "run.pdf")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.endswith("beal: run.pdf: --report: must end with .html, found .pdf\n")
+    assert done.stderr == "beal: run.pdf: --report: must end with .html, found .pdf\n"
     assert not (tmp_path / "run.pdf").exists()
 
 

@@ -9,7 +9,6 @@ import typer
 from beal.cli.figures import curve_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model
 from beal.cli.output import emit, quantity, show_table
-from beal.cli.remarks import remark
 
 if TYPE_CHECKING:
     from beal.stability.complete import Event
@@ -45,7 +44,6 @@ def critical(
     from beal.stability.vanishing import vanishing_damping_limit
 
     vehicle = load(model)
-    notes = remark(vehicle, as_json)
     with new_figure(figure, as_json) as draw:
         found = critical_thrust(
             vehicle,
@@ -76,7 +74,6 @@ def critical(
                 **others,
                 **listed,
                 **told,
-                "notes": notes,
                 **named(figure),
             }
         )

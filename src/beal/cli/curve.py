@@ -7,7 +7,6 @@ import typer
 from beal.cli.figures import curve_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model, Table
 from beal.cli.output import emit, new_result, note, show_table
-from beal.cli.remarks import remark
 
 if TYPE_CHECKING:
     from beal.stability.curve import ThrustCurve
@@ -30,7 +29,6 @@ def curve(
     from beal.stability.curve import thrust_curve
 
     vehicle = load(model)
-    notes = remark(vehicle, as_json)
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         found = thrust_curve(vehicle, to, points, modes, formulation)  # type: ignore[arg-type]  # checked there
         columns = _columns(found)
@@ -41,7 +39,7 @@ def curve(
             draw(lambda: curve_figure(vehicle, found, first, events))
     if as_json:
         data = {name: getattr(found, name) for name in ("thrust", "angular_frequency", "growth_rate", "formulation")}
-        emit({**data, "units": vehicle.units, "file": str(output) if output else None, "notes": notes, **named(figure)})
+        emit({**data, "units": vehicle.units, "file": str(output) if output else None, **named(figure)})
     elif output:
         note(f"{points} thrusts and {modes} modes written to {output}")
     else:

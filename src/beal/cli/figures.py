@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from beal.control import ControlLocus
     from beal.discretisation.operators import Operators
-    from beal.motion import Part, Quantity, Response
+    from beal.motion import Quantity, Response
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust
     from beal.stability.curve import ThrustCurve
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 FORMATS = (".png", ".svg", ".pdf")
 DOTS = 300  # per inch of a picture, as printers ask for
 WIDE, HIGH = 5.0, 3.0  # of a panel, inches
-DRAWN: "tuple[Quantity | Part, ...]" = ("displacement", "rate", "slope")
+DRAWN: "tuple[Quantity, ...]" = ("displacement", "rate", "slope")
 
 Draw = Callable[[], "Figure"]
 
@@ -130,25 +130,19 @@ def curve_figure(
     return figure
 
 
-def response_figure(
-    found: "Response",
-    nondimensional: bool,
-    quantities: "Sequence[Quantity | Part]" = DRAWN,
-    show: str = "history",
-) -> "Figure":
-    """Histories, envelopes or spectra of quantities, a column for each sensor."""
+def response_figure(found: "Response", nondimensional: bool, quantities: "Sequence[Quantity]" = DRAWN) -> "Figure":
+    """Quantities over time, a column for each sensor."""
     from matplotlib.figure import Figure
 
     from beal import plot
 
-    draw: Any = {"history": plot.response, "envelope": plot.response_envelope, "spectrum": plot.response_spectrum}[show]
     number = len(found.sensors)
     figure = Figure(figsize=(WIDE * max(1.0, 0.7 * number), 2 / 3 * HIGH * len(quantities)), layout="constrained")
     panels = figure.subplots(len(quantities), number, sharex=True, squeeze=False)
     for sensor, column in zip(found.sensors, panels.T, strict=True):
         column[0].set_title(sensor, loc="left")
         for quantity, ax in zip(quantities, column, strict=True):
-            draw(found, ax, sensor, quantity, nondimensional)
+            plot.response(found, ax, sensor, quantity, nondimensional)
             ax.label_outer()
     return figure
 

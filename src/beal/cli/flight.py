@@ -9,7 +9,6 @@ import typer
 from beal.cli.figures import flight_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Model
 from beal.cli.output import cell, emit, new_file, note, progress_bar, show_table, write_columns
-from beal.cli.remarks import remark
 
 if TYPE_CHECKING:
     from beal.study.flight import Flight, FlightState
@@ -31,7 +30,6 @@ def flight(
     from beal.study.flight import flight as fly
 
     vehicle = load(model)
-    notes = remark(vehicle, as_json)
     with new_figure(figure, as_json) as draw:
         with progress_bar() as progress:
             found = fly(vehicle, timeline, modes, lambda done, total: progress("times", done, total))
@@ -40,7 +38,7 @@ def flight(
         with new_file(table) as file:
             write_columns(file, _columns(found))
     if as_json:
-        emit({**_data(found), "units": found.units, "notes": notes, **named(figure)})
+        emit({**_data(found), "units": found.units, **named(figure)})
     else:
         _show(found)
         if table:

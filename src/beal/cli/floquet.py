@@ -10,7 +10,6 @@ import typer
 from beal.cli.figures import floquet_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Model, Report
 from beal.cli.output import check_folder, digits, emit, progress_bar
-from beal.cli.remarks import remark
 from beal.cli.reports import Run, new_report, picture, reported
 from beal.errors import ModelError
 from beal.report import Section, Table
@@ -47,7 +46,6 @@ def floquet(
     from beal.stability.floquet import floquet as multipliers_of
 
     vehicle = load(model)
-    notes = remark(vehicle, as_json)
     mean = vehicle.thrust.nominal if thrust is None else thrust
     if mean is None:
         raise ModelError("--thrust: give one, or set thrust.nominal in the model")
@@ -58,8 +56,8 @@ def floquet(
         with new_report(report, as_json) as tell:
             found = multipliers_of(vehicle, mean, amplitudes[0], frequencies[0], modes)
             lines = _told_point(found)
-            tell(vehicle, lambda: _run(lines, _multipliers(found), notes))
-        _show_point(vehicle, found, lines, {"notes": notes, **reported(report)}, as_json)
+            tell(vehicle, lambda: _run(lines, _multipliers(found)))
+        _show_point(vehicle, found, lines, report, as_json)
         return
     if figure and 1 in (len(amplitudes), len(frequencies)):
         raise ModelError("--figure: draws charts over a grid of both the amplitude and the angular frequency")
@@ -67,8 +65,8 @@ def floquet(
         chart = _chart(vehicle, mean, frequencies, amplitudes, modes, output)
         lines = _told_chart(chart)
         draw(lambda: floquet_figure(chart))
-        tell(vehicle, lambda: _run(lines, _charted(chart), notes))
-    _show_chart(vehicle, chart, lines, output, {"notes": notes, **named(figure), **reported(report)}, as_json)
+        tell(vehicle, lambda: _run(lines, _charted(chart)))
+    _show_chart(vehicle, chart, lines, output, {**named(figure), **reported(report)}, as_json)
 
 
 def _values(option: str, text: str) -> list[float]:
@@ -106,7 +104,7 @@ def _chart(
     return chart
 
 
-def _show_point(vehicle: "Vehicle", found: "Floquet", lines: list[str], beside: dict[str, Any], as_json: bool) -> None:
+def _show_point(vehicle: "Vehicle", found: "Floquet", lines: list[str], report: Path | None, as_json: bool) -> None:
     if as_json:
         resonance = found.resonance
         emit(
@@ -123,7 +121,7 @@ def _show_point(vehicle: "Vehicle", found: "Floquet", lines: list[str], beside: 
                 "steady_growth_rate": found.steady_growth_rate,
                 "rigid_body_modes": found.rigid_body_modes,
                 "units": vehicle.units,
-                **beside,
+                **reported(report),
             }
         )
         return
@@ -163,18 +161,17 @@ def _charted(chart: "Dataset") -> Section:
     return Section("Instability chart", pictures=pictures, tables=tables)
 
 
-def _run(lines: list[str], part: Section, notes: list[str]) -> Run:
+def _run(lines: list[str], part: Section) -> Run:
     return Run(
         "Pulsating thrust",
         "Does a pulsation of the thrust throw the vehicle into resonance?",
         lines,
         [part],
-        notes,
     )
 
 
 def _show_chart(
-    vehicle: "Vehicle", chart: "Dataset", lines: list[str], out: Path | None, beside: dict[str, Any], as_json: bool
+    vehicle: "Vehicle", chart: "Dataset", lines: list[str], out: Path | None, beside: dict[str, str], as_json: bool
 ) -> None:
     from beal.study.pulsating import chart_resonances
 

@@ -10,7 +10,6 @@ import typer
 from beal.cli.figures import map_figure, named, new_figure
 from beal.cli.options import AsJson, Figure
 from beal.cli.output import check_folder, emit, make_folder, note, progress_bar
-from beal.cli.remarks import remark
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
@@ -48,7 +47,6 @@ def map_study(
     from beal.study.map import run_study
 
     task = load_study(study)
-    notes = remark(task.vehicle, as_json)
     if figure and (len(task.shape) != 2 or min(task.shape) < 2):
         shape = " x ".join(map(str, task.shape))
         raise ModelError(f"--figure: draws maps over two axes of more than one value each, found {shape}")
@@ -66,7 +64,7 @@ def map_study(
         where = (f" --scheduler {scheduler}" if scheduler else "") + (f" --refine {refine}" if refine else "")
         note(f"interrupted; beal map {study} -o {output}{where} --resume goes on with it")
         raise
-    data = {"file": output, **found.named(), **borders, "notes": notes, **named(figure)}
+    data = {"file": output, **found.named(), **borders, **named(figure)}
     if as_json:
         emit(data)
         return

@@ -9,7 +9,6 @@ import typer
 from beal.cli.figures import modes_figure, named, new_figure
 from beal.cli.options import AsJson, Figure, Formulation, Model
 from beal.cli.output import digits, emit, new_result, note, show_table
-from beal.cli.remarks import remark
 from beal.errors import ModelError
 
 if TYPE_CHECKING:
@@ -39,7 +38,6 @@ def modes(
     from beal.stability.spectrum import spectrum
 
     vehicle = load(model)
-    notes = remark(vehicle, as_json)
     with new_figure(figure, as_json) as draw, new_result(output) as write:
         found, error = converged_modes(vehicle, _thrust(vehicle, thrust, loaded), count, formulation)  # type: ignore[arg-type]
         if output or figure:
@@ -62,7 +60,6 @@ def modes(
         "formulation": formulation,
         "units": vehicle.units,
         **({"file": str(output)} if output else {}),
-        "notes": notes,
         **named(figure),
     }
     if as_json:

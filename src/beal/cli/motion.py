@@ -1,16 +1,12 @@
 """``beal response``: time histories at the sensors."""
 
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from beal.cli.figures import named, new_figure, response_figure
+from beal.cli.figures import DRAWN, named, new_figure, response_figure
 from beal.cli.options import AsJson, Figure, Model, Report, Table
 from beal.cli.output import emit, new_result, note, show_table
-from beal.cli.readings import readings, shown
-from beal.cli.remarks import remark
 from beal.cli.reports import Run, new_report, picture, reported
 from beal.errors import ModelError
 from beal.report import Section
@@ -20,10 +16,10 @@ from beal.report.numbers import cell
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from beal.motion import Initial, Part, Quantity, Response, ThrustHistory
+    from beal.motion import Initial, Quantity, Response, ThrustHistory
+    from beal.vehicle.vehicle import Vehicle
 
 THRUST = "expected a number, ramp:FROM:TO:TIME, pulsating:MEAN:AMPLITUDE:ANGULAR_FREQUENCY or a CSV file"
-TITLES = {"history": "Histories", "envelope": "Envelopes", "spectrum": "Spectra"}
 INITIAL = "expected mode:NUMBER:AMPLITUDE or release:DEFLECTION[:STATION]"
 
 
@@ -49,13 +45,9 @@ def response(
         list[str] | None,
         typer.Option(
             metavar="Q",
-            help="What the figure shows: displacement, rate, acceleration, slope, slope_rate, or a part such as "
-            "elastic_displacement; again for more.",
+            help="What the figure shows: displacement, rate, acceleration, slope or slope_rate; again for more.",
         ),
     ] = None,
-    show: Annotated[
-        str, typer.Option("--show", metavar="WHAT", help="In table and figure: history, envelope or spectrum.")
-    ] = "history",
     output: Table = None,
     figure: Figure = None,
     report: Report = None,
@@ -67,34 +59,26 @@ def response(
     from beal.interop.files import load
     from beal.motion import PARTS, QUANTITIES
     from beal.motion import response as motion_of
-    from beal.motion.spectra import FEWEST
     from beal.stability.spectrum import spectrum
 
     vehicle = load(model)
-    notes = remark(vehicle, as_json)
     start = _initial(initial) if initial else None
     given = thrust_of(thrust, vehicle.units) if thrust else None
-    if output and show != "history" and output.suffix.lower() != ".csv":
-        raise ModelError(f"--output: envelopes and spectra are written as .csv, found {output.suffix or 'no ending'}")
-    operators = discretise(vehicle)
-    flies, plain = operators.rigid > 0 and not elastic, vehicle.units == "nondimensional"
-    quantities = shown(show, quantity or [], flies)
+    shown = _quantities(quantity) if quantity else DRAWN
     with (
         new_figure(figure, as_json) as draw,
         new_result(output) as write,
         new_report(report, as_json) as tell,
     ):
+        operators = discretise(vehicle)
         options: dict[str, Any] = {"step": step, "method": method, "initial": start, "rigid_body": not elastic}
         found = motion_of(operators, duration, given, **options)
         steady = given is None or isinstance(given, float)
         growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max()) if steady else None
-        read = readings(found, show, quantities)
-        write(read.columns, lambda: results.response(found))
-        draw(lambda: response_figure(found, plain, quantities, show))
-        state, largest = _state(found, growth), _largest(found, flies)
-        told = ("history", "spectrum") if len(found.time) > FEWEST else ("history",)
-        pages = {name: shown(name, [], flies) for name in told} | {show: quantities}
-        tell(vehicle, lambda: replace(_run(found, state, largest, plain, pages), notes=notes))
+        write(_columns(found), lambda: results.response(found))
+        draw(lambda: response_figure(found, vehicle.units == "nondimensional", shown))
+        state, largest = _state(found, growth), _largest(found, operators.rigid > 0 and not elastic)
+        tell(vehicle, lambda: _run(vehicle, found, state, largest, shown))
     if as_json:
         whats = (*QUANTITIES, *PARTS)
         sensors = {name: {what: getattr(found, what)[n] for what in whats} for n, name in enumerate(found.sensors)}
@@ -107,10 +91,8 @@ def response(
                 "thrust": found.thrust,
                 "thrust_history": found.thrust_history,
                 "growth_rate": growth,
-                **read.entry,
                 "units": vehicle.units,
                 "file": str(output) if output else None,
-                "notes": notes,
                 **named(figure),
                 **reported(report),
             }
@@ -119,10 +101,9 @@ def response(
     print(state)
     if vehicle.units == "SI":
         print("in N, s, m and rad")
-    for table in (largest, *read.tables):
-        show_table(table.header, table.rows)
+    show_table(largest.header, largest.rows)
     if output:
-        note(f"{TITLES[show].lower()} written to {output}")
+        note(f"histories written to {output}")
 
 
 def _state(found: "Response", growth: float | None) -> str:
@@ -147,19 +128,15 @@ def _sentence(header: "Sequence[str]", row: "Sequence[object]") -> str:
     return f"at {row[0]} the largest values are {', '.join(values)}"
 
 
-def _run(found: "Response", state: str, largest: Values, plain: bool, shows: "dict[str, list[Quantity | Part]]") -> Run:
-    """The page: the histories first, and what else is read off them."""
-    names = ", ".join(found.sensors)
-    parts = []
-    for show, quantities in shows.items():
-        drawn = picture(partial(response_figure, found, plain, quantities, show), f"{TITLES[show]} at {names}")
-        tables = [largest] if show == "history" else readings(found, show, quantities).tables
-        parts.append(Section(TITLES[show], [] if plain else ["In N, s, m and rad."], [drawn], tables))
+def _run(vehicle: "Vehicle", found: "Response", state: str, largest: Values, shown: "Sequence[Quantity]") -> Run:
+    plain, names = vehicle.units == "nondimensional", ", ".join(found.sensors)
+    drawn = picture(lambda: response_figure(found, plain, shown), f"Motion at {names}")
+    units = [] if plain else ["In N, s, m and rad."]
     return Run(
         "Response",
         f"How does the vehicle move under its loads within t = {found.time[-1]:g}?",
         [state, *(_sentence(largest.header, row) for row in largest.rows)],
-        parts,
+        [Section("Motion at the sensors", units, [drawn], [largest])],
     )
 
 
@@ -204,5 +181,22 @@ def thrust_of(text: str, units: str) -> "float | ThrustHistory":
     raise ModelError(f"--thrust: {THRUST}, found {text!r}")
 
 
+def _quantities(names: "list[str]") -> "list[Quantity]":
+    from beal.motion import QUANTITIES
+
+    if unknown := set(names) - set(QUANTITIES):
+        raise ModelError(f"--quantity: must be one of {', '.join(QUANTITIES)}, found {min(unknown)!r}")
+    return [quantity for quantity in QUANTITIES if quantity in names]
+
+
 def _named(found: "Response") -> "list[tuple[int, str]]":
     return list(enumerate(found.sensors))
+
+
+def _columns(found: "Response") -> dict[str, Any]:
+    from beal.motion import PARTS, QUANTITIES
+
+    columns: dict[str, Any] = {"time": found.time}
+    for n, name in _named(found):
+        columns |= {f"{name}_{what}": getattr(found, what)[n] for what in (*QUANTITIES, *PARTS)}
+    return columns

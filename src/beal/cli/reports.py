@@ -35,7 +35,6 @@ class Run:
     question: str
     answer: Sequence[str]
     sections: Sequence[Section]
-    notes: Sequence[str] = ()
 
 
 @contextmanager
@@ -71,7 +70,7 @@ def new_report(path: Path | None, quiet: bool) -> Iterator["Callable[[Vehicle, C
                 [_model(vehicle), *found.sections],
                 command=shlex.join(["beal", *sys.argv[1:]]),
                 version=__version__,
-                warnings=[*found.notes, *given],
+                warnings=given,
             )
             part.write_text(page, encoding="utf-8")
 

@@ -4,7 +4,7 @@ from beal.plot.control import control_locus
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
-from beal.plot.histories import amplitude_map, response, response_envelope, response_spectrum, trajectory
+from beal.plot.histories import amplitude_map, response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.pulsating import floquet_chart
 from beal.plot.shapes import deflections, mode_shapes
@@ -21,8 +21,6 @@ __all__ = [
     "mode_shapes",
     "pseudospectrum",
     "response",
-    "response_envelope",
-    "response_spectrum",
     "root_locus",
     "stability_map",
     "style",

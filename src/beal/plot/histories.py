@@ -4,13 +4,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from beal.motion import AmplitudeMap, Part, Quantity, Response, amplitude_spectrum, envelope
+from beal.motion import AmplitudeMap, Quantity, Response
 from beal.plot.style import BLUE, GREY, VERMILION, axes, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-DEPTH = 1e-6  # of a spectrum below its highest peak
 TIME = r"time $\bar t = t\,(EI/mL^4)^{1/2}$"
 
 
@@ -18,11 +17,11 @@ def response(
     result: Response,
     ax: "Axes | None" = None,
     sensor: str | None = None,
-    quantity: Quantity | Part = "displacement",
+    quantity: Quantity = "displacement",
     nondimensional: bool = True,
     **line: Any,
 ) -> "Axes":
-    """Draw one quantity at a sensor over time; where the vehicle flies, what a rigid body does of it dashed.
+    """Draw one quantity at a sensor over time.
 
     Parameters
     ----------
@@ -31,7 +30,6 @@ def response(
     sensor : str, optional
         Name; by default the first.
     quantity : {"displacement", "rate", "acceleration", "slope", "slope_rate"}
-        Or ``rigid_`` or ``elastic_`` before displacement or slope.
     nondimensional : bool
         Whether the labels are those of the non-dimensional form or carry SI units.
     **line
@@ -43,97 +41,14 @@ def response(
     """
     with style():
         ax = axes(ax)
-        name = sensor or result.sensors[0]
+        history = result.history(sensor or result.sensors[0], quantity)
         ax.axhline(0.0, color=GREY, linewidth=0.6)
         look: dict[str, Any] = {"color": BLUE, "linewidth": 1.0} | line
-        if quantity in ("displacement", "slope") and (rigid := result.history(name, f"rigid_{quantity}")).any():
-            ax.plot(result.time, rigid, color=VERMILION, linewidth=1.0, linestyle="--", zorder=3, label="rigid body")
-            ax.legend()
-        ax.plot(result.time, result.history(name, quantity), **look)
+        ax.plot(result.time, history, **look)
         ax.set_xlabel(TIME if nondimensional else "time (s)")
         ax.set_ylabel(_label(quantity, nondimensional))
         ax.margins(x=0.0)
         _powers(ax, "y")
-        return ax
-
-
-def response_envelope(
-    result: Response,
-    ax: "Axes | None" = None,
-    sensor: str | None = None,
-    quantity: Literal["displacement", "rate", "slope"] = "displacement",
-    nondimensional: bool = True,
-    **line: Any,
-) -> "Axes":
-    """Draw the amplitude of a quantity at a sensor over time, as turning points give it.
-
-    Parameters
-    ----------
-    result : Response
-    ax : Axes, optional
-    sensor : str, optional
-        Name; by default the first.
-    quantity : {"displacement", "rate", "slope"}
-    nondimensional : bool
-    **line
-        For matplotlib's ``plot``.
-
-    Returns
-    -------
-    Axes
-    """
-    with style():
-        ax = axes(ax)
-        time, amplitude = envelope(result, sensor or result.sensors[0], quantity)
-        look: dict[str, Any] = {"color": VERMILION, "linewidth": 1.0} | line
-        ax.plot(time, amplitude, **look)
-        ax.set_xlim(result.time[0], result.time[-1])
-        ax.set_ylim(bottom=0.0)
-        ax.set_xlabel(TIME if nondimensional else "time (s)")
-        ax.set_ylabel(f"amplitude of\n{_label(quantity, nondimensional)}")
-        _powers(ax, "y")
-        return ax
-
-
-def response_spectrum(
-    result: Response,
-    ax: "Axes | None" = None,
-    sensor: str | None = None,
-    quantity: Quantity | Part = "displacement",
-    nondimensional: bool = True,
-    **line: Any,
-) -> "Axes":
-    """Draw the amplitude of a quantity at a sensor over angular frequency, on a logarithmic scale.
-
-    It ends where all that lies above is below a millionth of the highest peak.
-
-    Parameters
-    ----------
-    result : Response
-    ax : Axes, optional
-    sensor : str, optional
-        Name; by default the first.
-    quantity : {"displacement", "rate", "acceleration", "slope", "slope_rate"}
-        Or a part, as of `response`.
-    nondimensional : bool
-    **line
-        For matplotlib's ``plot``.
-
-    Returns
-    -------
-    Axes
-    """
-    with style():
-        ax = axes(ax)
-        frequency, amplitude = amplitude_spectrum(result, sensor or result.sensors[0], quantity)
-        look: dict[str, Any] = {"color": BLUE, "linewidth": 1.0} | line
-        ax.semilogy(frequency, amplitude, **look)
-        if (top := amplitude.max()) > 0:
-            seen = np.flatnonzero(amplitude > DEPTH * top)
-            ax.set_xlim(0.0, frequency[max(seen[-1], 1)])
-            ax.set_ylim(DEPTH * top, 2 * top)
-        ax.set_xlabel(r"angular frequency $\omega\,(mL^4/EI)^{1/2}$" if nondimensional else "angular frequency (rad/s)")
-        ax.set_ylabel(f"amplitude of\n{_label(quantity, nondimensional)}")
         return ax
 
 
@@ -215,5 +130,4 @@ def _label(quantity: str, nondimensional: bool) -> str:
         "slope": "slope (rad)",
         "slope_rate": "slope rate (rad/s)",
     }
-    part, _, whole = quantity.partition("_") if quantity.startswith(("rigid_", "elastic_")) else ("", "", quantity)
-    return f"{part} {(dimensionless if nondimensional else si)[whole]}".lstrip()
+    return (dimensionless if nondimensional else si)[quantity]
