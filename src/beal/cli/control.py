@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beal.cli.figures import control_figure, named, new_figure
-from beal.cli.options import AsJson, Figure, Model, Report, Table
+from beal.cli.options import AsJson, Figure, Model, Table
 from beal.cli.output import emit, new_path, new_result, note, quantity, show_table
-from beal.cli.reports import Run, new_report, picture, reported
 from beal.errors import ModelError
-from beal.report import Section
-from beal.report import Table as Values
 
 if TYPE_CHECKING:
-    from beal.control import ClosedLoop, ControlledThrust, ControlLocus, Margins
+    from beal.control import ClosedLoop, ControlledThrust, Margins
     from beal.vehicle.vehicle import Vehicle
 
 STATE_SPACE = (".mat", ".nc")
@@ -34,7 +31,6 @@ def control(
     to: Annotated[float | None, typer.Option("--to", metavar="X", help="Up to there; of a gain, a factor.")] = None,
     output: Table = None,
     figure: Figure = None,
-    report: Report = None,
     plant: Annotated[
         Path | None,
         typer.Option("--state-space", metavar="FILE", help="Write the open loop there: .mat or .nc."),
@@ -49,25 +45,18 @@ def control(
     if plant and plant.suffix.lower() not in STATE_SPACE:
         known = " or ".join(STATE_SPACE)
         raise ModelError(f"--state-space: must end with {known}, found {plant.suffix or 'no ending'}", str(plant))
-    if not (figure or report) and (over != "thrust" or to is not None):
-        raise ModelError("--over, --to: say what a figure shows; give --figure or --report")
+    if not figure and (over != "thrust" or to is not None):
+        raise ModelError("--over, --to: say what a figure shows; give --figure FILE")
     vehicle = load(model)
-    with (
-        new_figure(figure, as_json) as draw,
-        new_result(output) as write,
-        new_report(report, as_json) as tell,
-    ):
+    with new_figure(figure, as_json) as draw, new_result(output) as write:
         found = closed_loop(vehicle, thrust, modes)
         margins = stability_margins(vehicle, thrust, modes)
         critical = controlled_thrust(vehicle, modes=modes) if largest else None
         write(_columns(found), lambda: results.closed_loop(found))
-        answer = [_state(vehicle, found), *([_borne(vehicle, critical)] if critical else [])]
-        tables = [_roots(vehicle, found), _margin_table(vehicle, margins)]
-        if figure or report:
+        if figure:
             values = _values(vehicle, over, to, found.thrust)
             locus = control_locus(vehicle, over, values, found.thrust, min(modes, DRAWN))
             draw(lambda: control_figure(locus, vehicle.units == "nondimensional"))
-            tell(vehicle, lambda: _run(vehicle, answer, tables, locus))
     if plant:
         with new_path(plant) as part:
             matrices = state_space(vehicle, thrust, modes=modes)
@@ -87,16 +76,13 @@ def control(
                 "file": str(output) if output else None,
                 "state_space": str(plant) if plant else None,
                 **named(figure),
-                **reported(report),
             }
         )
         return
-    print(answer[0])
-    for table in tables:
-        if table.rows:
-            show_table(table.header, table.rows)
-    for line in answer[1:]:
-        print(line)
+    _show(vehicle, found)
+    _show_margins(vehicle, margins)
+    if critical:
+        print(_borne(vehicle, critical))
     for what, path in (("roots", output), ("state space", plant)):
         if path:
             note(f"{what} written to {path}")
@@ -136,53 +122,35 @@ def _columns(found: "ClosedLoop") -> dict[str, Any]:
     return {"real": found.roots.real, "imag": found.roots.imag, "damping_ratio": found.damping_ratio}
 
 
-def _state(vehicle: "Vehicle", found: "ClosedLoop") -> str:
-    root = found.least_damped
+def _show(vehicle: "Vehicle", found: "ClosedLoop") -> None:
+    root, si = found.least_damped, vehicle.units == "SI"
     if found.stable:
         state = "stable" if root.real < 0 else "stable, but undamped"
     else:
         state = f"unstable, its motion grows as exp({root.real:.4g} t)"
     drift = f"; {found.drift} zero roots of rigid-body drift" if found.drift else ""
-    return f"P = {found.thrust:.9g}{' N' if vehicle.units == 'SI' else ''}: {state}{drift}"
-
-
-def _roots(vehicle: "Vehicle", found: "ClosedLoop") -> Values:
-    si = vehicle.units == "SI"
+    print(f"P = {found.thrust:.9g}{' N' if si else ''}: {state}{drift}")
     upper = [root for root in found.roots[found.drift :].tolist() if root.imag >= 0]
     rows = [[root.real + 0.0, root.imag, -root.real / abs(root) + 0.0] for root in upper]
     columns = ["real part [1/s]", "imaginary part [rad/s]"] if si else ["real part", "imaginary part"]
     if si:
         rows = [[real, imag, imag / (2 * math.pi), ratio] for real, imag, ratio in rows]
         columns.append("frequency [Hz]")
-    return Values([*columns, "damping ratio"], rows)
+    show_table([*columns, "damping ratio"], rows)
 
 
-def _margin_table(vehicle: "Vehicle", found: "Margins") -> Values:
+def _show_margins(vehicle: "Vehicle", found: "Margins") -> None:
     rows: list[list[Any]] = [
         ["gain", margin.angular_frequency, _mode(margin.mode), margin.decibel, margin.factor] for margin in found.gain
     ]
     rows += [
         ["phase", margin.angular_frequency, _mode(margin.mode), margin.degrees, margin.delay] for margin in found.phase
     ]
-    unit = (" [rad/s]", " [s]") if vehicle.units == "SI" else ("", "")
-    columns = ["name", f"angular frequency{unit[0]}", "near", "margin [dB, deg]", f"factor, delay{unit[1]}"]
-    return Values(columns, sorted(rows, key=lambda row: row[1]))
-
-
-def _run(vehicle: "Vehicle", answer: list[str], tables: list[Values], locus: "ControlLocus") -> Run:
-    roots, margins = tables
-    title = f"Roots of the closed loop over {locus.over}"
-    caption = f"From {locus.values[0]:g} (discs) to {locus.values[-1]:g} (squares); to the right motions grow."
-    drawn = picture(lambda: control_figure(locus, vehicle.units == "nondimensional"), title, caption)
-    told = [Section("Roots of the closed loop", tables=[roots], pictures=[drawn])]
-    if margins.rows:
-        told.append(Section("Gain and phase margins", tables=[margins]))
-    return Run(
-        "Control loop",
-        "Is the vehicle stable with its control law closed, and how far from its limits?",
-        answer,
-        told,
-    )
+    if rows:
+        unit = (" [rad/s]", " [s]") if vehicle.units == "SI" else ("", "")
+        columns = ["name", f"angular frequency{unit[0]}", "near", "margin [dB, deg]", f"factor, delay{unit[1]}"]
+        rows.sort(key=lambda row: row[1])
+        show_table(columns, rows)
 
 
 def _mode(number: int) -> str:

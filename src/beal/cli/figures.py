@@ -53,9 +53,12 @@ def new_figure(path: Path | None, quiet: bool) -> Iterator[Callable[[Draw], None
     if path.suffix.lower() not in FORMATS:
         known = ", ".join(FORMATS)
         raise ModelError(f"--figure: must end with one of {known}, found {path.suffix or 'no ending'}", str(path))
-    need_matplotlib("--figure")
-    from beal.plot import style
-
+    try:
+        from beal.plot import style
+    except ModuleNotFoundError as error:
+        if not str(error.name).startswith("matplotlib"):
+            raise
+        raise ModelError("--figure: needs matplotlib, which is not installed; install beal[plot]") from None
     with new_path(path) as part:
 
         def write(draw: Draw) -> None:
@@ -67,16 +70,6 @@ def new_figure(path: Path | None, quiet: bool) -> Iterator[Callable[[Draw], None
         yield write
     if not quiet:
         note(f"figure written to {path}")
-
-
-def need_matplotlib(option: str) -> None:
-    """Refuse an option that draws where matplotlib is not installed."""
-    try:
-        import beal.plot  # noqa: F401
-    except ModuleNotFoundError as error:
-        if not str(error.name).startswith("matplotlib"):
-            raise
-        raise ModelError(f"{option}: needs matplotlib, which is not installed; install beal[plot]") from None
 
 
 def named(path: Path | None) -> dict[str, str]:

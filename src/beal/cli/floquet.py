@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beal.cli.figures import floquet_figure, named, new_figure
-from beal.cli.options import AsJson, Figure, Model, Report
+from beal.cli.options import AsJson, Figure, Model
 from beal.cli.output import check_folder, digits, emit, progress_bar
-from beal.cli.reports import Run, new_report, picture, reported
 from beal.errors import ModelError
-from beal.report import Section, Table
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -38,7 +36,6 @@ def floquet(
         Path | None, typer.Option("-o", "--output", metavar="OUT.zarr", help="Folder of the chart over a grid.")
     ] = None,
     figure: Figure = None,
-    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Stability under the thrust P0 + P1 cos(W t): multipliers of a period and the resonance."""
@@ -53,20 +50,15 @@ def floquet(
     if len(amplitudes) == len(frequencies) == 1:
         if output or figure:
             raise ModelError(f"{'--output' if output else '--figure'}: holds a chart; give {GRID}")
-        with new_report(report, as_json) as tell:
-            found = multipliers_of(vehicle, mean, amplitudes[0], frequencies[0], modes)
-            lines = _told_point(found)
-            tell(vehicle, lambda: _run(lines, _multipliers(found)))
-        _show_point(vehicle, found, lines, report, as_json)
+        found = multipliers_of(vehicle, mean, amplitudes[0], frequencies[0], modes)
+        _show_point(vehicle, found, as_json)
         return
     if figure and 1 in (len(amplitudes), len(frequencies)):
         raise ModelError("--figure: draws charts over a grid of both the amplitude and the angular frequency")
-    with new_figure(figure, as_json) as draw, new_report(report, as_json) as tell:
+    with new_figure(figure, as_json) as draw:
         chart = _chart(vehicle, mean, frequencies, amplitudes, modes, output)
-        lines = _told_chart(chart)
         draw(lambda: floquet_figure(chart))
-        tell(vehicle, lambda: _run(lines, _charted(chart)))
-    _show_chart(vehicle, chart, lines, output, {**named(figure), **reported(report)}, as_json)
+    _show_chart(vehicle, chart, output, figure, as_json)
 
 
 def _values(option: str, text: str) -> list[float]:
@@ -104,7 +96,7 @@ def _chart(
     return chart
 
 
-def _show_point(vehicle: "Vehicle", found: "Floquet", lines: list[str], report: Path | None, as_json: bool) -> None:
+def _show_point(vehicle: "Vehicle", found: "Floquet", as_json: bool) -> None:
     if as_json:
         resonance = found.resonance
         emit(
@@ -121,92 +113,43 @@ def _show_point(vehicle: "Vehicle", found: "Floquet", lines: list[str], report: 
                 "steady_growth_rate": found.steady_growth_rate,
                 "rigid_body_modes": found.rigid_body_modes,
                 "units": vehicle.units,
-                **reported(report),
             }
         )
         return
-    print(*lines, sep="\n")
-
-
-def _told_point(found: "Floquet") -> list[str]:
     state = "stable" if found.stable else f"unstable, its motion grows as exp({found.growth_rate:.4g} t)"
     modulus = digits(found.largest_modulus, found.error_estimate)
-    lines = [
-        f"P = {found.thrust:g} + {found.amplitude:g} cos({found.angular_frequency:g} t): {state}",
-        f"largest modulus of the multipliers: {modulus}",
-    ]
+    print(f"P = {found.thrust:g} + {found.amplitude:g} cos({found.angular_frequency:g} t): {state}")
+    print(f"largest modulus of the multipliers: {modulus}")
     if resonance := found.resonance:
-        lines.append(f"nearest resonance: {resonance.name} = {resonance.angular_frequency:.6g}")
-    return lines + _beside(found.thrust, found.steady_growth_rate, found.rigid_body_modes)
+        print(f"nearest resonance: {resonance.name} = {resonance.angular_frequency:.6g}")
+    _beside(found.thrust, found.steady_growth_rate, found.rigid_body_modes)
 
 
-def _multipliers(found: "Floquet") -> Section:
-    rows = [[number.real, number.imag, abs(number)] for number in found.multipliers.tolist() if number.imag >= 0]
-    text = "Of each pair of conjugates the upper one. The motion is stable while no modulus exceeds 1."
-    return Section(
-        "Multipliers of one period", [text], tables=[Table(["real part", "imaginary part", "modulus"], rows)]
-    )
-
-
-def _charted(chart: "Dataset") -> Section:
-    from beal.study.pulsating import chart_resonances
-
-    pictures = []
-    if min(chart.stable.shape) > 1:
-        title = "Growth over frequency and amplitude of the pulsation"
-        caption = "White is stable; lines mark the resonances, from which the tongues of growth start."
-        pictures.append(picture(lambda: floquet_figure(chart), title, caption))
-    rows = [[name, omega] for name, omega in chart_resonances(chart)]
-    tables = [Table(["resonance", "angular frequency"], rows)] if rows else []
-    return Section("Instability chart", pictures=pictures, tables=tables)
-
-
-def _run(lines: list[str], part: Section) -> Run:
-    return Run(
-        "Pulsating thrust",
-        "Does a pulsation of the thrust throw the vehicle into resonance?",
-        lines,
-        [part],
-    )
-
-
-def _show_chart(
-    vehicle: "Vehicle", chart: "Dataset", lines: list[str], out: Path | None, beside: dict[str, str], as_json: bool
-) -> None:
-    from beal.study.pulsating import chart_resonances
-
-    if as_json:
-        data: dict[str, Any] = {
-            "file": str(out) if out else None,
-            "points": chart.stable.size,
-            "unstable": int((~chart.stable).sum()),
-            "largest_modulus": float(chart.largest_modulus.max()),
-            "resonances": [{"name": name, "angular_frequency": omega} for name, omega in chart_resonances(chart)],
-            **{name: chart.attrs[name] for name in ("thrust", "steady_growth_rate", "rigid_body_modes")},
-            "units": vehicle.units,
-        }
-        emit({**data, **beside})
-        return
-    print((f"{out}: " if out else "") + "\n".join(lines))
-
-
-def _told_chart(chart: "Dataset") -> list[str]:
+def _show_chart(vehicle: "Vehicle", chart: "Dataset", out: Path | None, figure: Path | None, as_json: bool) -> None:
     from beal.study.pulsating import chart_resonances
 
     points, unstable = chart.stable.size, int((~chart.stable).sum())
-    resonances = ", ".join(f"{name} = {omega:.6g}" for name, omega in chart_resonances(chart))
-    return [
-        f"{points} points: {points - unstable} stable, {unstable} unstable",
-        f"resonances: {resonances or 'none within'}",
-        *_beside(chart.attrs["thrust"], chart.attrs["steady_growth_rate"], chart.attrs["rigid_body_modes"]),
-    ]
+    found = chart_resonances(chart)
+    if as_json:
+        data: dict[str, Any] = {
+            "file": str(out) if out else None,
+            "points": points,
+            "unstable": unstable,
+            "largest_modulus": float(chart.largest_modulus.max()),
+            "resonances": [{"name": name, "angular_frequency": omega} for name, omega in found],
+            **{name: chart.attrs[name] for name in ("thrust", "steady_growth_rate", "rigid_body_modes")},
+            "units": vehicle.units,
+        }
+        emit({**data, **named(figure)})
+        return
+    print(f"{f'{out}: ' if out else ''}{points} points: {points - unstable} stable, {unstable} unstable")
+    print("resonances: " + (", ".join(f"{name} = {omega:.6g}" for name, omega in found) or "none within"))
+    _beside(chart.attrs["thrust"], chart.attrs["steady_growth_rate"], chart.attrs["rigid_body_modes"])
 
 
-def _beside(thrust: float, growth: float, rigid: int) -> list[str]:
+def _beside(thrust: float, growth: float, rigid: int) -> None:
     """What holds for all pulsations."""
-    lines = []
     if growth > 0:
-        lines.append(f"already unstable under P = {thrust:g} alone, its motion grows as exp({growth:.4g} t)")
+        print(f"already unstable under P = {thrust:g} alone, its motion grows as exp({growth:.4g} t)")
     if rigid:
-        lines.append(f"rigid-body motions left out, which drive no others: {rigid}")
-    return lines
+        print(f"rigid-body motions left out, which drive no others: {rigid}")

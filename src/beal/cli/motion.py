@@ -5,19 +5,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beal.cli.figures import DRAWN, named, new_figure, response_figure
-from beal.cli.options import AsJson, Figure, Model, Report, Table
+from beal.cli.options import AsJson, Figure, Model, Table
 from beal.cli.output import emit, new_result, note, show_table
-from beal.cli.reports import Run, new_report, picture, reported
 from beal.errors import ModelError
-from beal.report import Section
-from beal.report import Table as Values
-from beal.report.numbers import cell
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from beal.motion import Initial, Quantity, Response, ThrustHistory
-    from beal.vehicle.vehicle import Vehicle
 
 THRUST = "expected a number, ramp:FROM:TO:TIME, pulsating:MEAN:AMPLITUDE:ANGULAR_FREQUENCY or a CSV file"
 INITIAL = "expected mode:NUMBER:AMPLITUDE or release:DEFLECTION[:STATION]"
@@ -50,7 +43,6 @@ def response(
     ] = None,
     output: Table = None,
     figure: Figure = None,
-    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Motion at the sensors under the thrust and the transverse forces."""
@@ -65,11 +57,7 @@ def response(
     start = _initial(initial) if initial else None
     given = thrust_of(thrust, vehicle.units) if thrust else None
     shown = _quantities(quantity) if quantity else DRAWN
-    with (
-        new_figure(figure, as_json) as draw,
-        new_result(output) as write,
-        new_report(report, as_json) as tell,
-    ):
+    with new_figure(figure, as_json) as draw, new_result(output) as write:
         operators = discretise(vehicle)
         options: dict[str, Any] = {"step": step, "method": method, "initial": start, "rigid_body": not elastic}
         found = motion_of(operators, duration, given, **options)
@@ -77,8 +65,6 @@ def response(
         growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max()) if steady else None
         write(_columns(found), lambda: results.response(found))
         draw(lambda: response_figure(found, vehicle.units == "nondimensional", shown))
-        state, largest = _state(found, growth), _largest(found, operators.rigid > 0 and not elastic)
-        tell(vehicle, lambda: _run(vehicle, found, state, largest, shown))
     if as_json:
         whats = (*QUANTITIES, *PARTS)
         sensors = {name: {what: getattr(found, what)[n] for what in whats} for n, name in enumerate(found.sensors)}
@@ -94,50 +80,22 @@ def response(
                 "units": vehicle.units,
                 "file": str(output) if output else None,
                 **named(figure),
-                **reported(report),
             }
         )
         return
-    print(state)
-    if vehicle.units == "SI":
-        print("in N, s, m and rad")
-    show_table(largest.header, largest.rows)
-    if output:
-        note(f"histories written to {output}")
-
-
-def _state(found: "Response", growth: float | None) -> str:
     if growth is None:
         state = f"P from {found.thrust_history.min():.9g} to {found.thrust_history.max():.9g}"
     else:
         state = f"P = {found.thrust:.9g}: "
         state += "stable" if growth <= 0 else f"unstable, its motion grows as exp({growth:.4g} t)"
-    return f"{state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}"
-
-
-def _largest(found: "Response", flies: bool) -> Values:
-    from beal.motion import QUANTITIES
-
-    parts = ("displacement", "elastic_displacement", *QUANTITIES[1:]) if flies else QUANTITIES
-    rows = [[name, *(abs(getattr(found, what)[n]).max().item() for what in parts)] for n, name in _named(found)]
-    return Values(["largest", *(what.replace("_", " ") for what in parts)], rows)
-
-
-def _sentence(header: "Sequence[str]", row: "Sequence[object]") -> str:
-    values = [f"{what} {cell(value)}" for what, value in zip(header, row, strict=True)][1:]
-    return f"at {row[0]} the largest values are {', '.join(values)}"
-
-
-def _run(vehicle: "Vehicle", found: "Response", state: str, largest: Values, shown: "Sequence[Quantity]") -> Run:
-    plain, names = vehicle.units == "nondimensional", ", ".join(found.sensors)
-    drawn = picture(lambda: response_figure(found, plain, shown), f"Motion at {names}")
-    units = [] if plain else ["In N, s, m and rad."]
-    return Run(
-        "Response",
-        f"How does the vehicle move under its loads within t = {found.time[-1]:g}?",
-        [state, *(_sentence(largest.header, row) for row in largest.rows)],
-        [Section("Motion at the sensors", units, [drawn], [largest])],
-    )
+    print(f"{state}; {len(found.time) - 1} steps of {found.step:.4g} by {found.method}")
+    if vehicle.units == "SI":
+        print("in N, s, m and rad")
+    parts = ("displacement", "elastic_displacement", *QUANTITIES[1:]) if operators.rigid and not elastic else QUANTITIES
+    largest = [[name, *(abs(getattr(found, what)[n]).max().item() for what in parts)] for n, name in _named(found)]
+    show_table(["largest", *(what.replace("_", " ") for what in parts)], largest)
+    if output:
+        note(f"histories written to {output}")
 
 
 def _initial(text: str) -> "Initial":

@@ -18,6 +18,3 @@ Table = Annotated[
 Figure = Annotated[
     Path | None, typer.Option("--figure", metavar="FILE", help="Draw the result there: .png, .svg or .pdf.")
 ]
-Report = Annotated[
-    Path | None, typer.Option("--report", metavar="FILE.html", help="Write a page on question, model and answer there.")
-]

@@ -14,8 +14,6 @@ p { margin: .6rem 0 .9rem; hyphens: auto; }
 a { color: var(--accent); text-underline-offset: .15em; }
 .byline { color: var(--soft); margin: 0 0 1.6rem; font-size: .93rem; }
 .abstract { background: var(--tint); border-left: 4px solid var(--accent); padding: .9rem 1.2rem; margin: 1.4rem 0; }
-.warning { background: #fdf0d0; border-left: 4px solid #e69f00; padding: .9rem 1.2rem; margin: 1.4rem 0; }
-.warning ul { margin: .4rem 0 0; padding-left: 1.2rem; }
 .abstract p:first-child { margin-top: 0; } .abstract p:last-child { margin-bottom: 0; }
 nav { font-size: .93rem; margin: 1.2rem 0; } nav a { margin-right: 1rem; white-space: nowrap; }
 .eq { overflow-x: auto; padding: .35rem 0 .35rem 1.6rem; font-size: 1.05rem; white-space: nowrap; }

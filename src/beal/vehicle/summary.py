@@ -7,35 +7,6 @@ from beal.vehicle.parts import ElasticEnd, Joint
 from beal.vehicle.stations import Property, StationTable
 from beal.vehicle.vehicle import Vehicle
 
-UNITS = {  # of what a summary holds, in SI
-    "length": "m",
-    "mass": "kg",
-    "centre_of_mass": "m",
-    "moment_of_inertia": "kg m^2",
-    "nominal_thrust": "N",
-    "thrust_station": "m",
-    "gravity": "m/s^2",
-    "force": "N",
-    "value": "1/m",
-    "from": "m",
-    "to": "m",
-    "station": "m",
-    "surface": "m",
-    "mass_per_length": "kg/m",
-    "bending_stiffness": "N m^2",
-    "foundation_stiffness": "N/m^2",
-    "rotary_inertia": "kg m^2",
-    "rotary_inertia_per_length": "kg m",
-    "rotational_stiffness": "N m/rad",
-    "shear_stiffness": "N/m",
-    "reference_length": "m",
-    "reference_mass_per_length": "kg/m",
-    "reference_bending_stiffness": "N m^2",
-    "thrust_scale": "N",
-    "time_scale": "s",
-}
-OF_STAGES = {"shear_stiffness": "N"}  # where joints have the same name for another quantity
-
 
 def summary(vehicle: Vehicle) -> dict[str, Any]:
     """Lengths, masses, joints and non-dimensional groups of a vehicle, ready for JSON.
