@@ -1,7 +1,7 @@
 """Operators and excitation to time histories: Newmark's method and the exact solution."""
 
 from beal.motion.amplitude import AmplitudeMap, amplitude_map
-from beal.motion.histories import PARTS, QUANTITIES, Part, Quantity, Response, growth_rate
+from beal.motion.histories import PARTS, QUANTITIES, Quantity, Response, growth_rate
 from beal.motion.initial import Initial, ModeShape, Release, Samples, State
 from beal.motion.solve import response
 from beal.motion.spectra import amplitude_spectrum, envelope
@@ -17,7 +17,6 @@ __all__ = [
     "CoarseStepWarning",
     "Initial",
     "ModeShape",
-    "Part",
     "PulsatingThrust",
     "Quantity",
     "Release",

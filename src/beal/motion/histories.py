@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 from beal.errors import ModelError
 
 Array = NDArray[np.float64]
+STILL = 2.0  # of the longest distances between turning points; after that a motion swings no more
 Quantity = Literal["displacement", "rate", "acceleration", "slope", "slope_rate"]  # what a sensor reads
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
-Part = Literal["rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope"]
-PARTS: tuple[Part, ...] = get_args(Part)
-STILL = 2.0  # of the longest distances between turning points; after that a motion swings no more
+PARTS = ("rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope")
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +81,9 @@ class Response:
         return self.sensors.index(sensor)
 
     def history(self, sensor: str, quantity: str = "displacement") -> Array:
-        """One quantity at a sensor, or the rigid or elastic part of one, shape (k,)."""
-        if quantity not in (*QUANTITIES, *PARTS):
-            raise ModelError(f"quantity: must be one of {', '.join((*QUANTITIES, *PARTS))}, found {quantity!r}")
+        """One quantity at a sensor, shape (k,)."""
+        if quantity not in QUANTITIES:
+            raise ModelError(f"quantity: must be one of {', '.join(QUANTITIES)}, found {quantity!r}")
         values: Array = getattr(self, quantity)[self.index(sensor)]
         return values
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.signal import detrend
 
 from beal.errors import ModelError
-from beal.motion.histories import Part, Quantity, Response, turning_points
+from beal.motion.histories import Quantity, Response, turning_points
 
 Array = NDArray[np.float64]
 RATE_OF: dict[str, Quantity] = {"displacement": "rate", "rate": "acceleration", "slope": "slope_rate"}
@@ -52,9 +52,7 @@ def envelope(
     return (instants[1:] + instants[:-1]) / 2, abs(np.diff(peaks)) / 2
 
 
-def amplitude_spectrum(
-    response: Response, sensor: str, quantity: Quantity | Part = "displacement"
-) -> tuple[Array, Array]:
+def amplitude_spectrum(response: Response, sensor: str, quantity: Quantity = "displacement") -> tuple[Array, Array]:
     """Amplitude over angular frequency, such that a lasting sine peaks with its amplitude.
 
     The straight line through the history is taken off, and Hann's window keeps strong lines from leaking: a line is
@@ -65,7 +63,6 @@ def amplitude_spectrum(
     response : Response
     sensor : str
     quantity : {"displacement", "rate", "acceleration", "slope", "slope_rate"}
-        Or a part: of a vehicle that flies, ``elastic_displacement`` and ``elastic_slope`` are those that do not drift.
 
     Returns
     -------
