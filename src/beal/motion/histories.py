@@ -10,6 +10,7 @@ from beal.errors import ModelError
 from beal.shown import Shown
 
 Array = NDArray[np.float64]
+STILL = 2.0  # of the longest distances between turning points; after that a motion swings no more
 Quantity = Literal["displacement", "rate", "acceleration", "slope", "slope_rate"]  # what a sensor reads
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
 MotionPart = Literal["rigid_displacement", "elastic_displacement", "rigid_slope", "elastic_slope"]
@@ -98,7 +99,7 @@ class Response(Shown):
 def growth_rate(response: Response, sensor: str) -> float:
     """Rate a, in 1/s, at which a sensor's displacement grows as exp(a t) over the second half.
 
-    A motion that swings is judged by the differences between successive turning points, which an offset does
+    A motion that swings to its end is judged by the differences between successive turning points, which an offset does
     not change, a motion that does not by its size. For comparison with the real part of the eigenvalue: it
     holds once the fastest growing mode dominates, and is about 0 for a bounded motion.
 
@@ -122,7 +123,7 @@ def growth_rate(response: Response, sensor: str) -> float:
     if not displacement.any():
         raise ModelError(f"sensor {sensor!r}: does not move in the second half, no growth can be told")
     instants, peaks = turning_points(time, displacement, rate)
-    if len(peaks) >= 4:
+    if len(peaks) >= 4 and time[-1] - instants[-1] < STILL * np.diff(instants).max():
         time, displacement = (instants[1:] + instants[:-1]) / 2, np.diff(peaks)
     size = abs(displacement)
     time, size = time[size > 0], size[size > 0]

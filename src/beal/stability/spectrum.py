@@ -94,8 +94,9 @@ def spectrum(operators: Operators, thrust: float = 0.0, count: int = 6) -> Spect
     if full.C is not None:
         return _damped(operators, full, thrust, count)
     W, shapes = lowest(full, thrust, count + full.rigid)
-    if full.rigid:  # the smallest root is that of the rigid-body motion, unless the vehicle tumbles
-        smallest = 0 if W[0].real < -ZERO * full.shift else np.abs(W).argmin()
+    if full.rigid:  # the smallest root is that of the rigid-body motion, unless none is zero: the vehicle tumbles
+        tumbles = np.abs(W).min() > ZERO * full.shift and W[0].real < -ZERO * full.shift
+        smallest = 0 if tumbles else np.abs(W).argmin()
         W, shapes = np.delete(W, smallest), np.delete(shapes, smallest, axis=1)
     embedded = np.zeros((len(operators.M), count), dtype=complex)
     embedded[len(operators.M) - len(shapes) :] = shapes
