@@ -13,11 +13,12 @@ from pathlib import Path
 import pytest
 
 import beal
+from test_manual import PAGES as MANUAL
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
 NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "pulsating")
 CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, PULSATING = (PAGES.get(name, "") for name in NAMES)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
@@ -84,7 +85,7 @@ def cluster_folder(readme_folder):
 
 
 def test_every_page_of_the_docs_is_executed():
-    assert sorted(PAGES) == sorted([*NAMES, "verification"])
+    assert sorted(PAGES) == sorted([*NAMES, *MANUAL, "verification"])
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", CONTROL, re.MULTILINE)) == {"toml", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}

@@ -1,0 +1,79 @@
+"""What the manual's own pages show is what happens, and all that is written is in the manual."""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
+PAGES = ("index", "limits", "moving", "scaling", "theory", "tutorial")
+BEAL = str(Path(sys.executable).with_name("beal"))
+
+
+def blocks(page):
+    return re.findall(
+        r"^```(\w+)\n(.*?)^```$", (DOCS / f"{page}.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
+    )
+
+
+def run(words, folder):
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def matches(printed, shown):
+    """Line by line, without what rounding leaves; a last line of three dots stands for all the rest."""
+    printed, shown = (
+        [re.sub(r"relative error about \S+|\d\.\d+e-\d+ │", "", line).rstrip() for line in text.strip().splitlines()]
+        for text in (printed, shown)
+    )
+    return printed[: len(shown) - 1] == shown[:-1] if shown[-1:] == ["..."] else printed == shown
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_the_blocks_of_a_page_do_what_it_says(page, tmp_path):
+    printed = None
+    for language, block in blocks(page):
+        first, _, rest = block.partition("\n")
+        if language == "toml":
+            (tmp_path / first.removeprefix("# ")).write_text(block, encoding="utf-8")
+        elif language == "console":
+            command = shlex.split(first.removeprefix("$ "))
+            assert command[0] == "beal"
+            assert matches(run([BEAL, *command[1:]], tmp_path), rest)
+        elif language == "python":
+            printed = run([sys.executable, "-c", block], tmp_path)
+        else:
+            assert language == "text"
+            assert matches(printed, block)
+
+
+def test_every_page_is_in_the_contents():
+    listed = set(re.findall(r"^(\w[\w-]*)$", INDEX, re.MULTILINE))
+    assert {path.stem for path in DOCS.glob("*.md")} - listed == {"index"}
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", *(f"docs/{path.name}" for path in DOCS.glob("*.md"))])
+def test_links_lead_somewhere(name):
+    text = re.sub(r"^```.*?^```$", "", (ROOT / name).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    targets = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text)
+    inside = [target for target in targets if "://" not in target]
+    assert [target for target in inside if not (ROOT / name).parent.joinpath(target).exists()] == []
+
+
+def test_words_are_spelled_right():
+    codespell = shutil.which("codespell", path=Path(sys.executable).parent)
+    names = ["README.md", "CONTRIBUTING.md", "docs", "changes", "examples", "benchmarks", "src"]
+    options = [
+        "--skip=generated,*.png,*.csv",
+        "--ignore-words-list=suport,unter,whats",
+    ]  # Nastran's, German, a test function
+    done = subprocess.run([codespell, *options, *names], cwd=ROOT, capture_output=True, text=True)
+    assert done.stdout == ""
