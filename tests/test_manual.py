@@ -1,13 +1,18 @@
 """What the manual's own pages show is what happens, and all that is written is in the manual."""
 
+import importlib
 import re
 import shlex
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from sphinx.errors import SphinxError
+
+import beal
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -77,3 +82,29 @@ def test_words_are_spelled_right():
     ]  # Nastran's, German, a test function
     done = subprocess.run([codespell, *options, *names], cwd=ROOT, capture_output=True, text=True)
     assert done.stdout == ""
+
+
+@pytest.fixture
+def offline(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS / "_extensions"))
+    return importlib.import_module("offline")
+
+
+def test_what_a_page_would_load_from_a_network_is_seen(offline):
+    asking = '<script async src="https://cdn.org/a.js"></script><link rel="stylesheet" href="//fonts.org/b.css">'
+    assert offline.fetched(asking + "a { background: url('http://c.org/d.png') }") == [
+        "https://cdn.org/a.js",
+        "//fonts.org/b.css",
+        "http://c.org/d.png",
+    ]
+    assert offline.fetched('<a href="https://doi.org/1">a link</a><script src="_static/a.js"></script>') == []
+
+
+def test_a_build_that_would_load_from_a_network_fails(offline, tmp_path):
+    (tmp_path / "page.html").write_text('<img src="https://a.org/b.png">', encoding="utf-8")
+    with pytest.raises(SphinxError, match=r"page\.html: https://a\.org/b\.png"):
+        offline.check(SimpleNamespace(outdir=tmp_path), None)
+
+
+def test_the_version_to_cite_is_this_one():
+    assert f"version {beal.__version__}." in (DOCS / "limits.md").read_text(encoding="utf-8")
