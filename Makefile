@@ -3,15 +3,17 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 REPORT := out/paper
+MANUAL := out/docs
 
-.PHONY: help demo test lint benchmark clean
+.PHONY: help demo test docs lint benchmark clean
 
 help:
 	@echo "make demo       install into $(VENV), reproduce the paper, say where the report is"
 	@echo "make test       install into $(VENV), run the whole test suite"
+	@echo "make docs       build the manual into $(MANUAL), without a network"
 	@echo "make lint       ruff and mypy"
 	@echo "make benchmark  time the critical thrust and the maps"
-	@echo "make clean      remove $(VENV), $(REPORT), builds and caches"
+	@echo "make clean      remove $(VENV), $(REPORT), $(MANUAL), builds and caches"
 	@echo "Another interpreter than $(PYTHON): make test PYTHON=python3.12"
 
 demo: $(STAMP)
@@ -25,6 +27,10 @@ test: export MKL_NUM_THREADS = 1
 test: $(STAMP)
 	$(BIN)/python -m pytest -n auto --maxprocesses 8
 
+docs: $(STAMP)
+	$(BIN)/python -m sphinx -W --keep-going --quiet -b html docs $(MANUAL)
+	@echo "The manual: $(CURDIR)/$(MANUAL)/index.html"
+
 lint: $(STAMP)
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
@@ -35,7 +41,7 @@ benchmark: $(STAMP)
 	$(BIN)/python benchmarks/maps.py
 
 clean:
-	rm -rf $(VENV) $(REPORT) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
+	rm -rf $(VENV) $(REPORT) $(MANUAL) docs/generated build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
 	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(STAMP): pyproject.toml constraints.txt
