@@ -28,6 +28,7 @@ COMMANDS = [
     "flight",
     "control",
     "floquet",
+    "sensitivity",
     "map",
     "response",
     "reproduce",

@@ -8,7 +8,8 @@ import pytest
 import beal
 from beal import catalog
 from beal.design.branches import builder
-from beal.design.sensitivity import differentiable, influential
+from beal.design.derivatives import influential
+from beal.design.sensitivity import differentiable
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.pencil import pencil
 from beal.stability.refine import polish
@@ -19,7 +20,7 @@ from verification.transfer_matrix import TransferMatrix
 PER_VEHICLE = 2
 
 
-def followed(vehicle, path, critical, step=1e-3):
+def followed(vehicle, path, critical, step=2e-4):
     """Derivative of (thrust, omega) by differences of sixth order of polished critical points; nan across a step."""
     build = builder(vehicle, "objective")
     value = value_at(vehicle, path)
@@ -51,7 +52,7 @@ def designs(count, seed, damped):
 
 @pytest.mark.parametrize(("count", "seed", "damped"), [(290, 77, False), (16, 78, True)])
 def test_derivatives_are_those_of_differences_at_random_designs(count, seed, damped):
-    compared = {"flutter": 0, "divergence": 0}
+    compared, wrong = {"flutter": 0, "divergence": 0}, []
     for vehicle, critical, paths in designs(count, seed, damped):
         found = beal.critical_gradient(vehicle, paths, critical=critical)
         for n, path in enumerate(paths):
@@ -60,8 +61,10 @@ def test_derivatives_are_those_of_differences_at_random_designs(count, seed, dam
             mine = np.array([found.thrust[n], found.angular_frequency[n]])
             reference = followed(vehicle, path, critical)
             scale = np.array([critical.critical_thrust, critical.angular_frequency or 1.0]) / value_at(vehicle, path)
-            assert np.all(np.abs(mine - reference) < 1e-6 * (np.abs(reference) + 1e-3 * scale)), (path, mine, reference)
+            if not np.all(np.abs(mine - reference) < 1e-6 * (np.abs(reference) + 1e-3 * scale)):
+                wrong.append((path, mine.tolist(), reference.tolist()))
             compared[critical.kind] += 1
+    assert not wrong
     assert sum(compared.values()) > (8 if damped else 200)
     assert min(compared.values()) > 0
 

@@ -80,7 +80,7 @@ def critical(
         return
     print(_verdict(vehicle, found))
     for name, other in beside.items():
-        verdict = _instability(vehicle, other.elastic or other) if other else "its dead loads alone make it unstable"
+        verdict = instability(vehicle, other.elastic or other) if other else "its dead loads alone make it unstable"
         print(f"{BESIDE[name]}: {verdict}")
     if transient:
         print(
@@ -130,12 +130,12 @@ def _event(event: "Event") -> dict[str, Any]:
 
 def _verdict(vehicle: "Vehicle", found: "CriticalThrust") -> str:
     if found.elastic is not None:
-        elastic = _instability(vehicle, found.elastic)
+        elastic = instability(vehicle, found.elastic)
         return f"tumbles as a rigid body under any thrust; its elastic modes alone: {elastic}"
-    return f"{vehicle.title}: {_instability(vehicle, found)}" if vehicle.title else _instability(vehicle, found)
+    return f"{vehicle.title}: {instability(vehicle, found)}" if vehicle.title else instability(vehicle, found)
 
 
-def _instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:
+def instability(vehicle: "Vehicle", found: "CriticalThrust") -> str:
     """One sentence: how, at which thrust, in which modes, at which frequency, with which margin."""
     thrust, unit = found.critical_thrust, _thrust_unit(vehicle)
     if thrust is None or found.modes is None or found.angular_frequency is None:

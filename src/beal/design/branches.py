@@ -109,9 +109,16 @@ def _again(operators: Operators, branches: Sequence[Branch]) -> Array:
 
 def _sets_adrift(found: Change, here: Operators, branches: Sequence[Branch]) -> bool:
     """Whether a divergence of the elastic motions alone becomes one of rigid-body motions too, at another thrust."""
-    if all(each.kind == "flutter" for each in branches):
-        return False
-    return any(np.any(acting(each) != acting(here)) for each in found.operators)
+    moved = found.operators[0]
+    return any(
+        np.any(acting(moved) != acting(here)) or _neutral(moved, each) != _neutral(here, each)
+        for each in branches
+        if each.kind == "divergence"
+    )
+
+
+def _neutral(operators: Operators, at: Branch) -> bool:
+    return bool(operators.rigid) and rigid_body_root(reduced(pencil(operators)), at.point.thrust) == "neutral"
 
 
 def _damps(path: str) -> bool:

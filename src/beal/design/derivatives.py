@@ -7,7 +7,7 @@ is right as long as all matrices are differentiated in the same moving coordinat
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,15 +17,17 @@ from numpy.typing import NDArray
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.pencil import Pencil
-from beal.vehicle.paths import value_at, with_values
+from beal.vehicle.paths import paths, value_at, with_values
 from beal.vehicle.vehicle import Scales, Vehicle
 
 Array = NDArray[np.float64]
 STEP = 1e-2  # of the value
 FIRST_STEP = 1e-3  # of its natural size, from zero or infinity
-SHRUNK = (1.0, 0.1, 0.01)  # steps that are tried where longer ones meet the end of a segment
+SHRUNK = (1.0, 0.1, 0.01, 0.001)  # steps that are tried where longer ones reach the end of a segment
 SETTLED = 1e-7  # relative difference of two formulas that ends the search for a better step
-STRETCH = 1.4  # ratio of a segment's lengths above which the stencil is too wide for it
+STRETCH = 1.05  # ratio of a segment's lengths above which the stencil is too wide for it
+
+WITHOUT_EFFECT = ("sensor", "force", "control", "timeline", "thrust.nominal")
 
 Solve = Callable[[Vehicle], Array]
 Problem = Callable[[Operators], Pencil]
@@ -86,6 +88,27 @@ class Quantity:
             return self.vehicle
         value = self.value
         return with_values(self.vehicle, {self.path: 1 / distance if math.isinf(value) else value + distance})
+
+
+def bare(vehicle: Vehicle) -> Vehicle:
+    """The vehicle without what only moves or reads it, whose stations would not follow its length."""
+    return vehicle.model_copy(update={"forces": (), "sensors": (), "control": None})
+
+
+def influential(vehicle: Vehicle) -> list[str]:
+    """Paths of the quantities on which critical thrusts and frequencies may depend."""
+    return [path for path in paths(vehicle) if not path.startswith(WITHOUT_EFFECT)]
+
+
+def quantities_of(vehicle: Vehicle, chosen: Iterable[str] | None = None) -> list[Quantity]:
+    """The quantities at paths, all that matter by default, of the bare vehicle."""
+    quantities = []
+    for path in influential(vehicle) if chosen is None else chosen:
+        value_at(vehicle, path)
+        if path.startswith(WITHOUT_EFFECT):
+            raise ModelError([(path, "has no effect on critical thrusts and frequencies")])
+        quantities.append(Quantity(bare(vehicle), path))
+    return quantities
 
 
 @dataclass(frozen=True)

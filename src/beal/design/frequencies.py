@@ -8,8 +8,7 @@ import numpy as np
 import scipy.linalg
 
 from beal.design.branches import builder
-from beal.design.derivatives import Array, Quantity, change
-from beal.design.sensitivity import influential
+from beal.design.derivatives import Array, bare, change, quantities_of
 from beal.discretisation.build import Formulation
 from beal.discretisation.operators import Operators
 from beal.stability.pencil import ComplexArray, Pencil, pencil
@@ -109,14 +108,14 @@ def frequency_sensitivity(
     >>> found.elasticity.round(9).tolist()
     [[0.5, 0.5]]
     """
-    names = tuple(influential(vehicle) if paths is None else paths)
-    quantities = [Quantity(vehicle, path) for path in names]
+    quantities = quantities_of(vehicle, paths)
+    names = tuple(quantity.path for quantity in quantities)
     values = np.array([quantity.value for quantity in quantities])
 
     def flown(moved: Vehicle) -> Vehicle:
         return moved if time is None else vehicle_at(moved, time)
 
-    now = flown(vehicle)
+    now = flown(bare(vehicle))
     discretised = builder(now, formulation)
     with one_thread():
         operators = discretised(now)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beal.design.branches import Status, branch, builder, slopes
-from beal.design.derivatives import Array, Quantity
+from beal.design.derivatives import Array, bare, quantities_of
 from beal.design.sensitivity import differentiable, guess
 from beal.discretisation.build import Formulation
 from beal.stability.critical import CriticalThrust, critical_thrust
@@ -72,8 +72,8 @@ def critical_gradient(
     with one_thread():
         found = differentiable(critical or critical_thrust(vehicle, max_thrust, formulation))
         build = builder(vehicle, formulation)
-        operators = build(vehicle)
+        operators = build(bare(vehicle))
         here = [branch(operators, *guess(found))]
-        rows = [slopes(Quantity(vehicle, path), here, build, operators) for path in paths]
+        rows = [slopes(each, here, build, operators) for each in quantities_of(vehicle, paths)]
     fine = np.array([row.fine[0] for row in rows]).reshape(-1, 2)
     return CriticalGradient(found, fine[:, 0], fine[:, 1], tuple(row.status for row in rows))

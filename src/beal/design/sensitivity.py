@@ -7,7 +7,7 @@ from functools import partial
 from typing import Literal
 
 from beal.design.branches import Slopes, Status, branch, builder, slopes
-from beal.design.derivatives import Quantity
+from beal.design.derivatives import bare, quantities_of
 from beal.discretisation.build import Formulation
 from beal.errors import ModelError
 from beal.stability.complete import Event
@@ -16,12 +16,11 @@ from beal.stability.double_root import CriticalPoint
 from beal.stability.ridge import Kind
 from beal.stability.threads import one_thread
 from beal.study.flight import vehicle_at
-from beal.vehicle.paths import paths as paths_of
 from beal.vehicle.vehicle import Vehicle
 
 NEAR = 5e-2  # relative distance of another critical thrust within which it is told
+ROUNDING = 1e-9  # elasticity that counts as none
 TIE = 1e-6  # below which two count as one
-WITHOUT_EFFECT = ("sensor", "force", "control", "timeline", "thrust.nominal")
 
 
 @dataclass(frozen=True)
@@ -94,17 +93,19 @@ class Sensitivity:
         Whether another critical thrust is within 5 %, so that the derivatives hold for small changes only, or within
         1e-6: then the smallest has a kink and each side its own derivative.
     rivals : tuple of Rival
+    units : {"SI", "nondimensional"}
     """
 
     critical: CriticalThrust
     parameters: tuple[Parameter, ...]
     status: Literal["smooth", "near a switch", "tie"]
     rivals: tuple[Rival, ...]
+    units: Literal["SI", "nondimensional"]
 
     @property
     def ranked(self) -> tuple[Parameter, ...]:
         """The parameters with an effect, the largest elasticity first."""
-        there = [each for each in self.parameters if each.elasticity and math.isfinite(each.elasticity)]
+        there = [each for each in self.parameters if abs(each.elasticity) > ROUNDING]
         return tuple(sorted(there, key=lambda each: -abs(each.elasticity)))
 
     def __getitem__(self, path: str) -> Parameter:
@@ -165,11 +166,9 @@ def sensitivity(
     >>> [round(each.elasticity, 9) for each in found.parameters]
     [1.0, -2.0]
     """
-    names = influential(vehicle) if paths is None else list(paths)
-    quantities = [Quantity(vehicle, path) for path in names]
-    values = [quantity.value for quantity in quantities]
+    quantities = quantities_of(vehicle, paths)
     flown = partial(_flown, time=time)
-    now = flown(vehicle)
+    now = flown(bare(vehicle))
     discretised = builder(now, formulation)
     with one_thread():
         found = differentiable(critical or critical_thrust(now, max_thrust, formulation))
@@ -185,9 +184,9 @@ def sensitivity(
     )
     tied = [n for n, each in enumerate(told, start=1) if each.distance < TIE and each.event.change == "destabilises"]
     parameters = tuple(
-        _parameter(path, value, row, first.point, tied) for path, value, row in zip(names, values, rows, strict=True)
+        _parameter(each.path, each.value, row, first.point, tied) for each, row in zip(quantities, rows, strict=True)
     )
-    return Sensitivity(found, parameters, "tie" if tied else "near a switch" if told else "smooth", told)
+    return Sensitivity(found, parameters, "tie" if tied else "near a switch" if told else "smooth", told, vehicle.units)
 
 
 def guess(found: CriticalThrust | Event) -> tuple[Kind, float, float]:
@@ -195,11 +194,6 @@ def guess(found: CriticalThrust | Event) -> tuple[Kind, float, float]:
     if isinstance(found, Event):
         return found.kind, found.thrust, math.sqrt(max(found.W, 0.0))
     return found.kind, found.critical_thrust or 0.0, found.angular_frequency or 0.0  # type: ignore[return-value]
-
-
-def influential(vehicle: Vehicle) -> list[str]:
-    """Paths of the quantities of which a critical thrust may depend."""
-    return [path for path in paths_of(vehicle) if not path.startswith(WITHOUT_EFFECT)]
 
 
 def differentiable(found: CriticalThrust) -> CriticalThrust:

@@ -9,6 +9,7 @@ from beal.plot.maps import stability_map
 from beal.plot.pulsating import floquet_chart
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
+from beal.plot.tornado import tornado
 from beal.plot.transient import pseudospectrum, transient_growth
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "stability_map",
     "style",
     "thrust_curve",
+    "tornado",
     "trajectory",
     "transient_growth",
     "vehicle",
