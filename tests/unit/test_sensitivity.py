@@ -79,3 +79,20 @@ def test_frequencies_follow_their_derivatives(thrust):
     ]
     by_differences = np.array([1, -8, 8, -1]) / 12 @ [each.angular_frequency for each in ends] / step
     assert found.frequency_derivative[0] == pytest.approx(by_differences, rel=1e-7)
+
+
+def test_derivatives_go_through_the_timeline():
+    line = beal.Timeline(time=[0.0, 10.0], thrust=[9.0, 9.0], fill={"fuel": [1.0, 0.25]})
+    tank = beal.Tank(name="fuel", forward_end=0.2, aft_end=0.5, mass_per_length=3.0)
+    flying = catalog.tsto(0.6, 20.0, 100.0).model_copy(update={"tanks": (tank,), "timeline": line})
+    emptied = tank.model_copy(update={"fill": 0.25})
+    still = flying.model_copy(update={"tanks": (emptied,), "timeline": None})
+    path = "tank[0].mass_per_length"
+    in_flight, on_its_own = beal.sensitivity(flying, [path], time=10.0)[path], beal.sensitivity(still, [path])[path]
+    assert in_flight.derivative == pytest.approx(on_its_own.derivative, rel=1e-8)
+    assert in_flight.derivative != pytest.approx(beal.sensitivity(flying, [path], time=0.0)[path].derivative, rel=1e-2)
+
+
+def test_a_time_that_the_timeline_does_not_list_is_refused():
+    with pytest.raises(beal.ModelError, match="timeline"):
+        beal.sensitivity(catalog.beck(), time=3.0)
