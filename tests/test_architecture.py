@@ -20,6 +20,7 @@ ROOMS = [
     "control",
     "interop",
     "study",
+    "design",
     "verification",
     "plot",
     "report",

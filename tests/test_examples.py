@@ -20,8 +20,11 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
-NAMES = ("clusters", "control", "explorer", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating")
-CLUSTERS, CONTROL, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING = (
+NAMES = (
+    *("clusters", "control", "explorer", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating"),
+    "sensitivity",
+)
+CLUSTERS, CONTROL, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING, SENSITIVITY = (
     PAGES.get(name, "") for name in NAMES
 )
 BEAL = [str(Path(sys.executable).with_name("beal"))]
@@ -100,6 +103,8 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", NOTEBOOK, re.MULTILINE)) == {"python"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
+
+    assert set(re.findall(r"^```(\w+)$", SENSITIVITY, re.MULTILINE)) == {"console", "python"}
 
 
 @pytest.fixture
@@ -340,3 +345,16 @@ def test_an_example_model_is_understood_by_every_command(model, command):
 def test_the_example_study_gives_a_map(tmp_path):
     run([*BEAL, "map", str(EXAMPLES / "joint_map.toml"), "-o", str(tmp_path / "map.zarr")], tmp_path)
     assert (tmp_path / "map.zarr" / "critical_thrust").is_dir()
+
+
+def test_the_command_of_the_page_on_sensitivities_prints_what_is_shown(readme_folder):
+    (block,) = blocks("console", SENSITIVITY)
+    command, _, shown = block.partition("\n")
+    printed = run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], readme_folder)
+    assert [line.rstrip() for line in printed.splitlines()] == [line.rstrip() for line in shown.splitlines()]
+
+
+def test_the_python_of_the_page_on_sensitivities_prints_what_it_says(readme_folder):
+    (block,) = blocks("python", SENSITIVITY)
+    expected = re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
+    assert run([sys.executable, "-c", block], readme_folder).strip() == expected

@@ -29,6 +29,7 @@ COMMANDS = [
     "flight",
     "control",
     "floquet",
+    "sensitivity",
     "map",
     "response",
     "amplitude",

@@ -19,6 +19,7 @@ COMMANDS = {
     "modes": ("--count", 2, "--thrust", 120),
     "critical": (),
     "curve": ("--to", 150, "--points", 11),
+    "sensitivity": (),
     "response": ("--duration", 0.5, "--initial", "mode:1:0.01"),
 }
 BEGINNINGS = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}

@@ -18,6 +18,7 @@ from beal.cli.maps import map_study, reproduce
 from beal.cli.models import check, example
 from beal.cli.modes import modes
 from beal.cli.motion import response
+from beal.cli.sensitivity import sensitivity
 from beal.cli.verify import verify
 
 COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
@@ -29,6 +30,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "control": (control, "beal control launcher.toml --thrust 90 --json"),
     "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
     "explore": (explore, "beal explore tsto.toml"),
+    "sensitivity": (sensitivity, "beal sensitivity tsto.toml --figure tornado.png"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "amplitude": (amplitude, "beal amplitude tsto.toml --duration 4 --thrust 10:120:45 --force 0:2:21"),

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from beal.control import ControlLocus, Margins, StateSpace
+    from beal.design.sensitivity import Sensitivity
     from beal.discretisation.operators import Operators
     from beal.motion import AmplitudeMap, Response
     from beal.stability.complete import Event
@@ -201,6 +202,17 @@ def map_figure(out: str, refined: bool) -> "Figure":
     with xarray.open_zarr(out, chunks=None) as grid:
         chart = RefinedMap(grid, xarray.open_zarr(out, group=GROUP, chunks=None)) if refined else grid
         plot.stability_map(chart, figure.subplots())
+    return figure
+
+
+def sensitivity_figure(found: "Sensitivity") -> "Figure":
+    """What each quantity does to the critical thrust."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(1.3 * WIDE, 1.3 * HIGH), layout="constrained")
+    plot.tornado(found, figure.subplots())
     return figure
 
 

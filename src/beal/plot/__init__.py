@@ -10,6 +10,7 @@ from beal.plot.opened import nichols, nyquist
 from beal.plot.pulsating import floquet_chart, multipliers
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
+from beal.plot.tornado import tornado
 from beal.plot.transient import pseudospectrum, transient_growth
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "stability_map",
     "style",
     "thrust_curve",
+    "tornado",
     "trajectory",
     "transient_growth",
     "vehicle",

@@ -76,8 +76,18 @@ class Pencil:
         return replace(self, K0=K0, K1=K1, M=M, C=C, dead=dead)
 
 
-def pencil(operators: Operators) -> Pencil:
-    """The stability problem of a discretised vehicle.
+def pencil(operators: Operators, kept: NDArray[np.bool_] | None = None) -> Pencil:
+    """The stability problem of a discretised vehicle, in the coordinates that act unless others are ``kept``."""
+    kept = acting(operators) if kept is None else kept
+    select = np.ix_(kept, kept)
+    shift = operators.vehicle.scales.angular_frequency**2
+    C, dead = (None if matrix is None else matrix[select] for matrix in (operators.C, operators.dead))
+    motions = int(kept[: operators.rigid].sum())
+    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], motions, shift, C, dead)
+
+
+def acting(operators: Operators) -> NDArray[np.bool_]:
+    """Which coordinates are part of the stability problem, shape (n,).
 
     A rigid-body motion whose columns of K1 and C vanish on the coordinates that are kept only follows them (theory,
     section 5): it contributes zero roots for every thrust and is left out.
@@ -91,11 +101,7 @@ def pencil(operators: Operators) -> Pencil:
             drives |= np.abs(matrix[:, :rigid]) > least
     for _ in range(rigid):  # one motion may act on the elastic coordinates through another
         kept[:rigid] |= drives[kept].any(axis=0)
-    select = np.ix_(kept, kept)
-    shift = operators.vehicle.scales.angular_frequency**2
-    C, dead = (None if matrix is None else matrix[select] for matrix in (operators.C, operators.dead))
-    motions = int(kept[:rigid].sum())
-    return Pencil(operators.K0[select], operators.K1[select], operators.M[select], motions, shift, C, dead)
+    return kept
 
 
 def _without_followers(full: Pencil) -> Pencil:

@@ -179,6 +179,36 @@ def flight(
     return Flight(tuple(states), vehicle.units)
 
 
+def vehicle_at(vehicle: Vehicle, time: float) -> Vehicle:
+    """The vehicle as it flies at one time of its timeline; at a step, such as a separation, just after it.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    time : float
+        In s, one of the timeline's.
+
+    Returns
+    -------
+    Vehicle
+        Of the stages attached, with the tanks as full as they are then.
+
+    Raises
+    ------
+    ModelError
+        If there is no timeline, or it does not list the time.
+    """
+    line = vehicle.timeline
+    if line is None:
+        raise ModelError([("timeline", "is needed and missing; give [timeline] or leave the time out")])
+    if time not in line.time:
+        nearest = min(line.time, key=lambda listed: abs(listed - time))
+        raise ModelError([("timeline.time", f"does not list {time:.12g}; the nearest is {nearest:.12g}")])
+    index = len(line.time) - 1 - line.time[::-1].index(time)
+    first, last = line.attached(index) or (1, len(vehicle.stages))
+    return attached(_filled(vehicle, index), first, last)
+
+
 def _with_timeline(vehicle: Vehicle, timeline: Timeline | str | os.PathLike[str] | None) -> Vehicle:
     if timeline is None or isinstance(timeline, Timeline):
         return vehicle.model_copy(update={"timeline": timeline}) if timeline else vehicle
