@@ -19,6 +19,7 @@ ROOMS = [
     "control",
     "interop",
     "study",
+    "design",
     "verification",
     "plot",
     "report",

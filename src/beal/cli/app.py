@@ -16,6 +16,7 @@ from beal.cli.maps import map_study, reproduce
 from beal.cli.models import check, example
 from beal.cli.modes import modes
 from beal.cli.motion import response
+from beal.cli.uncertainty import uncertainty
 from beal.cli.verify import verify
 
 COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
@@ -27,6 +28,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "control": (control, "beal control launcher.toml --thrust 90 --json"),
     "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
+    "uncertainty": (uncertainty, "beal uncertainty study.toml --indices 1024 --figure scatter.png"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "reproduce": (reproduce, "beal reproduce -o paper"),
     "verify": (verify, "beal verify --case pflueger"),

@@ -10,6 +10,7 @@ from beal.plot.pulsating import floquet_chart
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 from beal.plot.transient import pseudospectrum, transient_growth
+from beal.plot.uncertainty import thrust_distribution
 
 __all__ = [
     "amplitude_map",
@@ -25,6 +26,7 @@ __all__ = [
     "stability_map",
     "style",
     "thrust_curve",
+    "thrust_distribution",
     "trajectory",
     "transient_growth",
     "vehicle",
