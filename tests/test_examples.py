@@ -18,8 +18,10 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")}
-NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "pulsating")
-CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, PULSATING = (PAGES.get(name, "") for name in NAMES)
+NAMES = ("clusters", "control", "flight", "interop", "maps", "model", "motion", "pulsating", "uncertainty")
+CLUSTERS, CONTROL, FLIGHT, INTEROP, MAPS, MODEL, MOTION, PULSATING, UNCERTAINTY = (
+    PAGES.get(name, "") for name in NAMES
+)
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -90,10 +92,24 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
+    assert set(re.findall(r"^```(\w+)$", UNCERTAINTY, re.MULTILINE)) == {"toml", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", MOTION, re.MULTILINE)) == {"toml", "console", "python", "text"}
     assert set(re.findall(r"^```(\w+)$", CLUSTERS, re.MULTILINE)) == {"toml", "console", "sh", "python"}
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
+
+
+def test_the_command_of_the_page_on_uncertainty_prints_what_is_shown(tmp_path):
+    for name, block in zip(("jointed", "scatter"), blocks("toml", UNCERTAINTY), strict=True):
+        (tmp_path / f"{name}.toml").write_text(block)
+    (block,) = blocks("console", UNCERTAINTY)
+    command, _, shown = block.partition("\n")
+    assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], tmp_path) == shown
+
+
+def test_the_python_of_the_page_on_uncertainty_prints_what_it_says(tmp_path):
+    (block,) = blocks("python", UNCERTAINTY)
+    assert run([sys.executable, "-c", block], tmp_path).strip() == re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
 
 
 @pytest.fixture

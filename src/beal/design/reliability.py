@@ -33,8 +33,8 @@ def probability_of_instability(found: Sample, thrust: float, confidence: float =
     """Probability that a vehicle becomes unstable at or below a thrust.
 
     For random numbers the interval is that of Clopper and Pearson, exact for any number of samples. For Sobol'
-    sequences it is Student's over the independent scrambles, unless so few vehicles are unstable, or stable, that their
-    spread says little.
+    sequences it is Student's over the independent scrambles, unless all agree or so few vehicles are
+    unstable, or stable, that their spread says little.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def probability_of_instability(found: Sample, thrust: float, confidence: float =
     unstable = found.critical_thrust <= thrust
     count, failed = int(unstable.sum()), found.failed
     parts = unstable.reshape(found.replicates, -1).mean(axis=1)
-    if found.replicates > 1 and min(count, solved - count) >= FEW * found.replicates:
+    if parts.std() > 0 and min(count, solved - count) >= FEW * found.replicates:
         error = float(stats.sem(parts) * stats.t.ppf((1 + confidence) / 2, found.replicates - 1))
         middle = count / found.count
         low, high = max(0.0, middle - error), min(1.0, middle + failed / found.count + error)
