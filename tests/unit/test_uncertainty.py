@@ -102,6 +102,11 @@ def test_the_interval_is_that_of_clopper_and_pearson():
     assert (found.value, found.low, found.high) == pytest.approx((0.1, 0.0490047, 0.1762226), abs=1e-6)  # their table
 
 
+def test_scrambles_that_agree_do_not_make_a_probability_exact():
+    found = probability_of_instability(made(np.tile(np.arange(1.0, 9.0), 16), replicates=16), 4.0)
+    assert found.low < found.value == 0.5 < found.high
+
+
 def test_no_failure_among_many_still_leaves_a_chance():
     found = probability_of_instability(made(np.full(100, 200.0)), 10.0)
     assert (found.value, found.low) == (0.0, 0.0)
