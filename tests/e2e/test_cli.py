@@ -29,6 +29,7 @@ COMMANDS = [
     "control",
     "floquet",
     "map",
+    "uncertainty",
     "response",
     "reproduce",
     "verify",
