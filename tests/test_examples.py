@@ -22,9 +22,9 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
 NAMES = (
     *("clusters", "control", "explorer", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating"),
-    "sensitivity",
+    *("sensitivity", "uncertainty"),
 )
-CLUSTERS, CONTROL, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING, SENSITIVITY = (
+CLUSTERS, CONTROL, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING, SENSITIVITY, UNCERTAINTY = (
     PAGES.get(name, "") for name in NAMES
 )
 BEAL = [str(Path(sys.executable).with_name("beal"))]
@@ -98,6 +98,7 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
+    assert set(re.findall(r"^```(\w+)$", UNCERTAINTY, re.MULTILINE)) == {"toml", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", MAPS, re.MULTILINE)) == {"toml", "console"}
     assert set(re.findall(r"^```(\w+)$", MOTION, re.MULTILINE)) == {"toml", "console", "python", "text"}
     assert set(re.findall(r"^```(\w+)$", NOTEBOOK, re.MULTILINE)) == {"python"}
@@ -105,6 +106,19 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 
     assert set(re.findall(r"^```(\w+)$", SENSITIVITY, re.MULTILINE)) == {"console", "python"}
+
+
+def test_the_command_of_the_page_on_uncertainty_prints_what_is_shown(tmp_path):
+    for name, block in zip(("jointed", "scatter"), blocks("toml", UNCERTAINTY), strict=True):
+        (tmp_path / f"{name}.toml").write_text(block)
+    (block,) = blocks("console", UNCERTAINTY)
+    command, _, shown = block.partition("\n")
+    assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], tmp_path) == shown
+
+
+def test_the_python_of_the_page_on_uncertainty_prints_what_it_says(tmp_path):
+    (block,) = blocks("python", UNCERTAINTY)
+    assert run([sys.executable, "-c", block], tmp_path).strip() == re.findall(r"#\s*(.+)$", block, re.MULTILINE)[-1]
 
 
 @pytest.fixture

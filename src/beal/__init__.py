@@ -10,7 +10,9 @@ from importlib.metadata import version as _version
 from beal.shown import painted_by as _painted_by
 
 if _typing.TYPE_CHECKING:
-    from beal import plot
+    from beal import (
+        plot,
+    )
     from beal.control import (
         ClosedLoop,
         ControlledThrust,
@@ -25,13 +27,62 @@ if _typing.TYPE_CHECKING:
         stability_margins,
         state_space,
     )
-    from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
-    from beal.design.gradient import CriticalGradient, critical_gradient
-    from beal.design.sensitivity import Parameter, Rival, Sensitivity, sensitivity
-    from beal.discretisation.build import discretise
-    from beal.discretisation.operators import Operators
-    from beal.errors import BealError, ConvergenceError, ModelError
-    from beal.interop.files import load
+    from beal.design.distributions import (
+        Distribution,
+    )
+    from beal.design.frequencies import (
+        FrequencySensitivity,
+        frequency_sensitivity,
+    )
+    from beal.design.gradient import (
+        CriticalGradient,
+        critical_gradient,
+    )
+    from beal.design.indices import (
+        MorrisEffects,
+        SobolIndices,
+        morris_effects,
+        sobol_indices,
+        thrust_output,
+    )
+    from beal.design.reliability import (
+        Estimate,
+        probability_of_instability,
+        thrust_quantile,
+    )
+    from beal.design.robust import (
+        Scenario,
+        WorstCase,
+        scenarios,
+        worst_case,
+    )
+    from beal.design.sampling import (
+        Sample,
+        sample,
+    )
+    from beal.design.sensitivity import (
+        Parameter,
+        Rival,
+        Sensitivity,
+        sensitivity,
+    )
+    from beal.design.uncertain import (
+        Uncertain,
+    )
+    from beal.discretisation.build import (
+        discretise,
+    )
+    from beal.discretisation.operators import (
+        Operators,
+    )
+    from beal.errors import (
+        BealError,
+        ConvergenceError,
+        ModelError,
+    )
+    from beal.interop.files import (
+        load,
+    )
     from beal.motion import (
         AmplitudeMap,
         ModeShape,
@@ -50,20 +101,61 @@ if _typing.TYPE_CHECKING:
         response,
         transient_growth,
     )
-    from beal.stability.complete import Event
-    from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
-    from beal.stability.curve import ThrustCurve, thrust_curve
-    from beal.stability.floquet import Floquet, floquet
-    from beal.stability.resonances import Resonance
-    from beal.stability.spectrum import Spectrum, spectrum
-    from beal.stability.vanishing import vanishing_damping_limit
-    from beal.study.flight import Flight, FlightState, flight
-    from beal.study.map import stability_map
-    from beal.study.pulsating import floquet_chart
-    from beal.study.refined import RefinedMap, refined_map
-    from beal.vehicle import catalog
-    from beal.vehicle.control import Actuator, Control, Engine, Filter, Gain
-    from beal.vehicle.file import dumps, loads
+    from beal.stability.complete import (
+        Event,
+    )
+    from beal.stability.critical import (
+        CriticalThrust,
+        critical_events,
+        critical_thrust,
+    )
+    from beal.stability.curve import (
+        ThrustCurve,
+        thrust_curve,
+    )
+    from beal.stability.floquet import (
+        Floquet,
+        floquet,
+    )
+    from beal.stability.resonances import (
+        Resonance,
+    )
+    from beal.stability.spectrum import (
+        Spectrum,
+        spectrum,
+    )
+    from beal.stability.vanishing import (
+        vanishing_damping_limit,
+    )
+    from beal.study.flight import (
+        Flight,
+        FlightState,
+        flight,
+    )
+    from beal.study.map import (
+        stability_map,
+    )
+    from beal.study.pulsating import (
+        floquet_chart,
+    )
+    from beal.study.refined import (
+        RefinedMap,
+        refined_map,
+    )
+    from beal.vehicle import (
+        catalog,
+    )
+    from beal.vehicle.control import (
+        Actuator,
+        Control,
+        Engine,
+        Filter,
+        Gain,
+    )
+    from beal.vehicle.file import (
+        dumps,
+        loads,
+    )
     from beal.vehicle.parts import (
         AxialLoad,
         Damping,
@@ -77,10 +169,18 @@ if _typing.TYPE_CHECKING:
         Support,
         Thrust,
     )
-    from beal.vehicle.tanks import Tank
-    from beal.vehicle.timeline import Timeline
-    from beal.vehicle.vehicle import Vehicle
-    from beal.verification.run import verify
+    from beal.vehicle.tanks import (
+        Tank,
+    )
+    from beal.vehicle.timeline import (
+        Timeline,
+    )
+    from beal.vehicle.vehicle import (
+        Vehicle,
+    )
+    from beal.verification.run import (
+        verify,
+    )
 
 __version__ = _version("beal")
 
@@ -98,8 +198,10 @@ _HOMES = {
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
     "DistributedThrust": "beal.vehicle.parts",
+    "Distribution": "beal.design.distributions",
     "ElasticEnd": "beal.vehicle.parts",
     "Engine": "beal.vehicle.control",
+    "Estimate": "beal.design.reliability",
     "Event": "beal.stability.complete",
     "Filter": "beal.vehicle.control",
     "Flight": "beal.study.flight",
@@ -112,6 +214,7 @@ _HOMES = {
     "Margins": "beal.control",
     "ModeShape": "beal.motion",
     "ModelError": "beal.errors",
+    "MorrisEffects": "beal.design.indices",
     "Operators": "beal.discretisation.operators",
     "Parameter": "beal.design.sensitivity",
     "PointMass": "beal.vehicle.parts",
@@ -121,10 +224,13 @@ _HOMES = {
     "Resonance": "beal.stability.resonances",
     "Response": "beal.motion",
     "Rival": "beal.design.sensitivity",
+    "Sample": "beal.design.sampling",
     "Samples": "beal.motion",
+    "Scenario": "beal.design.robust",
     "Sensitivity": "beal.design.sensitivity",
     "Sensor": "beal.vehicle.parts",
     "SignalThrust": "beal.motion",
+    "SobolIndices": "beal.design.indices",
     "Spectrum": "beal.stability.spectrum",
     "Stage": "beal.vehicle.parts",
     "State": "beal.motion",
@@ -136,7 +242,9 @@ _HOMES = {
     "ThrustTable": "beal.motion",
     "Timeline": "beal.vehicle.timeline",
     "TransientGrowth": "beal.motion",
+    "Uncertain": "beal.design.uncertain",
     "Vehicle": "beal.vehicle.vehicle",
+    "WorstCase": "beal.design.robust",
     "amplitude_map": "beal.motion",
     "amplitude_spectrum": "beal.motion",
     "catalog": "beal.vehicle.catalog",
@@ -157,19 +265,27 @@ _HOMES = {
     "growth_rate": "beal.motion",
     "load": "beal.interop.files",
     "loads": "beal.vehicle.file",
+    "morris_effects": "beal.design.indices",
     "open_loop": "beal.control",
     "plot": "beal.plot",
+    "probability_of_instability": "beal.design.reliability",
     "refined_map": "beal.study.refined",
     "response": "beal.motion",
+    "sample": "beal.design.sampling",
+    "scenarios": "beal.design.robust",
     "sensitivity": "beal.design.sensitivity",
+    "sobol_indices": "beal.design.indices",
     "spectrum": "beal.stability.spectrum",
     "stability_map": "beal.study.map",
     "stability_margins": "beal.control",
     "state_space": "beal.control",
     "thrust_curve": "beal.stability.curve",
+    "thrust_output": "beal.design.indices",
+    "thrust_quantile": "beal.design.reliability",
     "transient_growth": "beal.motion",
     "vanishing_damping_limit": "beal.stability.vanishing",
     "verify": "beal.verification.run",
+    "worst_case": "beal.design.robust",
 }
 
 __all__ = [
@@ -186,8 +302,10 @@ __all__ = [
     "CriticalThrust",
     "Damping",
     "DistributedThrust",
+    "Distribution",
     "ElasticEnd",
     "Engine",
+    "Estimate",
     "Event",
     "Filter",
     "Flight",
@@ -200,6 +318,7 @@ __all__ = [
     "Margins",
     "ModeShape",
     "ModelError",
+    "MorrisEffects",
     "Operators",
     "Parameter",
     "PointMass",
@@ -209,10 +328,13 @@ __all__ = [
     "Resonance",
     "Response",
     "Rival",
+    "Sample",
     "Samples",
+    "Scenario",
     "Sensitivity",
     "Sensor",
     "SignalThrust",
+    "SobolIndices",
     "Spectrum",
     "Stage",
     "State",
@@ -224,7 +346,9 @@ __all__ = [
     "ThrustTable",
     "Timeline",
     "TransientGrowth",
+    "Uncertain",
     "Vehicle",
+    "WorstCase",
     "amplitude_map",
     "amplitude_spectrum",
     "catalog",
@@ -245,19 +369,27 @@ __all__ = [
     "growth_rate",
     "load",
     "loads",
+    "morris_effects",
     "open_loop",
     "plot",
+    "probability_of_instability",
     "refined_map",
     "response",
+    "sample",
+    "scenarios",
     "sensitivity",
+    "sobol_indices",
     "spectrum",
     "stability_map",
     "stability_margins",
     "state_space",
     "thrust_curve",
+    "thrust_output",
+    "thrust_quantile",
     "transient_growth",
     "vanishing_damping_limit",
     "verify",
+    "worst_case",
 ]
 
 _painted_by(lambda result: _import_module("beal.notebook.page").html(result))

@@ -31,6 +31,7 @@ COMMANDS = [
     "floquet",
     "sensitivity",
     "map",
+    "uncertainty",
     "response",
     "amplitude",
     "reproduce",

@@ -19,6 +19,7 @@ from beal.cli.models import check, example
 from beal.cli.modes import modes
 from beal.cli.motion import response
 from beal.cli.sensitivity import sensitivity
+from beal.cli.uncertainty import uncertainty
 from beal.cli.verify import verify
 
 COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
@@ -32,6 +33,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "explore": (explore, "beal explore tsto.toml"),
     "sensitivity": (sensitivity, "beal sensitivity tsto.toml --figure tornado.png"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
+    "uncertainty": (uncertainty, "beal uncertainty study.toml --indices 1024 --figure scatter.png"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),
     "amplitude": (amplitude, "beal amplitude tsto.toml --duration 4 --thrust 10:120:45 --force 0:2:21"),
     "reproduce": (reproduce, "beal reproduce -o paper"),

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from beal.control import ControlLocus, Margins, StateSpace
+    from beal.design.sampling import Sample
     from beal.design.sensitivity import Sensitivity
     from beal.discretisation.operators import Operators
     from beal.motion import AmplitudeMap, Response
@@ -224,6 +225,17 @@ def floquet_figure(chart: "Dataset") -> "Figure":
 
     figure = Figure(figsize=(1.3 * WIDE, 1.3 * HIGH), layout="constrained")
     plot.floquet_chart(chart, figure.subplots())
+    return figure
+
+
+def uncertainty_figure(found: "Sample", thrust: float | None, vehicle: "Vehicle") -> "Figure":
+    """How the critical thrust scatters."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(1.2 * WIDE, 1.3 * HIGH), layout="constrained")
+    plot.thrust_distribution(found, figure.subplots(), thrust, vehicle.units == "nondimensional")
     return figure
 
 

@@ -1,1 +1,1 @@
-"""From analysis to design: how critical thrusts and frequencies depend on every quantity of a vehicle."""
+"""From analysis to design: what keeps a vehicle stable, and what does it best."""

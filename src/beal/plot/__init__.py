@@ -12,6 +12,7 @@ from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
 from beal.plot.tornado import tornado
 from beal.plot.transient import pseudospectrum, transient_growth
+from beal.plot.uncertainty import thrust_distribution
 
 __all__ = [
     "amplitude_map",
@@ -33,6 +34,7 @@ __all__ = [
     "stability_map",
     "style",
     "thrust_curve",
+    "thrust_distribution",
     "tornado",
     "trajectory",
     "transient_growth",
