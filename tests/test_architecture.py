@@ -19,10 +19,12 @@ ROOMS = [
     "control",
     "interop",
     "study",
+    "design",
     "verification",
     "plot",
     "report",
     "paper",
+    "web",
     "cli",
 ]
 LONGEST = 400

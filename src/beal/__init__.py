@@ -21,6 +21,7 @@ if _typing.TYPE_CHECKING:
         stability_margins,
         state_space,
     )
+    from beal.design.ranges import AllowedInterval, AllowedRange, allowed_range
     from beal.discretisation.build import discretise
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
@@ -77,6 +78,8 @@ if _typing.TYPE_CHECKING:
 __version__ = _version("beal")
 
 _HOMES = {
+    "AllowedInterval": "beal.design.ranges",
+    "AllowedRange": "beal.design.ranges",
     "AmplitudeMap": "beal.motion",
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
@@ -121,6 +124,7 @@ _HOMES = {
     "Timeline": "beal.vehicle.timeline",
     "TransientGrowth": "beal.motion",
     "Vehicle": "beal.vehicle.vehicle",
+    "allowed_range": "beal.design.ranges",
     "amplitude_map": "beal.motion",
     "amplitude_spectrum": "beal.motion",
     "catalog": "beal.vehicle.catalog",
@@ -152,6 +156,8 @@ _HOMES = {
 }
 
 __all__ = [
+    "AllowedInterval",
+    "AllowedRange",
     "AmplitudeMap",
     "AxialLoad",
     "BealError",
@@ -196,6 +202,7 @@ __all__ = [
     "Timeline",
     "TransientGrowth",
     "Vehicle",
+    "allowed_range",
     "amplitude_map",
     "amplitude_spectrum",
     "catalog",
