@@ -21,12 +21,13 @@ EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
 NAMES = (
-    *("clusters", "control", "explorer", "flight", "interop", "maps", "model", "motion", "notebook", "pulsating"),
-    *("sensitivity", "uncertainty"),
+    *("clusters", "control", "design", "explorer", "flight", "interop", "maps", "model", "motion", "notebook"),
+    *("pulsating", "sensitivity", "uncertainty"),
 )
-CLUSTERS, CONTROL, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, PULSATING, SENSITIVITY, UNCERTAINTY = (
+CLUSTERS, CONTROL, DESIGN, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, *LATER = (
     PAGES.get(name, "") for name in NAMES
 )
+PULSATING, SENSITIVITY, UNCERTAINTY = LATER
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -95,6 +96,7 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", FLIGHT, re.MULTILINE)) == {"toml", "csv", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", CONTROL, re.MULTILINE)) == {"toml", "console", "python"}
     assert set(re.findall(r"^```(\w+)$", EXPLORER, re.MULTILINE)) == {"sh", "python"}
+    assert set(re.findall(r"^```(\w+)$", DESIGN, re.MULTILINE)) == {"python", "text"}
     assert set(re.findall(r"^```(\w+)$", MODEL, re.MULTILINE)) == {"toml", "console"}
     assert "```" not in PAGES["verification"]  # all of it is output of beal verify
     assert set(re.findall(r"^```(\w+)$", PULSATING, re.MULTILINE)) == {"console", "python"}
@@ -289,6 +291,11 @@ def test_the_commands_of_the_page_on_motion_print_what_is_shown(motion_folder, b
 @pytest.mark.parametrize(("block", "shown"), list(zip(blocks("python", MOTION), blocks("text", MOTION), strict=True)))
 def test_the_python_of_the_page_on_motion_prints_what_is_shown(motion_folder, block, shown):
     assert run([sys.executable, "-c", block], motion_folder).strip() == shown.strip()
+
+
+@pytest.mark.parametrize(("block", "shown"), list(zip(blocks("python", DESIGN), blocks("text", DESIGN), strict=True)))
+def test_the_python_of_the_page_on_design_prints_what_is_shown(tmp_path, block, shown):
+    assert run([sys.executable, "-c", block], tmp_path).strip() == shown.strip()
 
 
 @pytest.mark.parametrize("block", blocks("console", CLUSTERS))

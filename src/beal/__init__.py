@@ -10,9 +10,7 @@ from importlib.metadata import version as _version
 from beal.shown import painted_by as _painted_by
 
 if _typing.TYPE_CHECKING:
-    from beal import (
-        plot,
-    )
+    from beal import plot
     from beal.control import (
         ClosedLoop,
         ControlledThrust,
@@ -27,62 +25,22 @@ if _typing.TYPE_CHECKING:
         stability_margins,
         state_space,
     )
-    from beal.design.distributions import (
-        Distribution,
-    )
-    from beal.design.frequencies import (
-        FrequencySensitivity,
-        frequency_sensitivity,
-    )
-    from beal.design.gradient import (
-        CriticalGradient,
-        critical_gradient,
-    )
-    from beal.design.indices import (
-        MorrisEffects,
-        SobolIndices,
-        morris_effects,
-        sobol_indices,
-        thrust_output,
-    )
-    from beal.design.reliability import (
-        Estimate,
-        probability_of_instability,
-        thrust_quantile,
-    )
-    from beal.design.robust import (
-        Scenario,
-        WorstCase,
-        scenarios,
-        worst_case,
-    )
-    from beal.design.sampling import (
-        Sample,
-        sample,
-    )
-    from beal.design.sensitivity import (
-        Parameter,
-        Rival,
-        Sensitivity,
-        sensitivity,
-    )
-    from beal.design.uncertain import (
-        Uncertain,
-    )
-    from beal.discretisation.build import (
-        discretise,
-    )
-    from beal.discretisation.operators import (
-        Operators,
-    )
-    from beal.errors import (
-        BealError,
-        ConvergenceError,
-        ModelError,
-    )
-    from beal.interop.files import (
-        load,
-    )
+    from beal.design.distributions import Distribution
+    from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
+    from beal.design.gradient import CriticalGradient, critical_gradient
+    from beal.design.indices import MorrisEffects, SobolIndices, morris_effects, sobol_indices, thrust_output
+    from beal.design.optimise import Optimum, optimise
+    from beal.design.ranges import AllowedInterval, AllowedRange, allowed_range
+    from beal.design.reliability import Estimate, probability_of_instability, thrust_quantile
+    from beal.design.robust import Scenario, WorstCase, scenarios, worst_case
+    from beal.design.sampling import Sample, sample
+    from beal.design.sensitivity import Parameter, Rival, Sensitivity, sensitivity
+    from beal.design.uncertain import Uncertain
+    from beal.design.variables import DesignSpace, LinearBound, Link, Variable
+    from beal.discretisation.build import discretise
+    from beal.discretisation.operators import Operators
+    from beal.errors import BealError, ConvergenceError, ModelError
+    from beal.interop.files import load
     from beal.motion import (
         AmplitudeMap,
         ModeShape,
@@ -101,61 +59,20 @@ if _typing.TYPE_CHECKING:
         response,
         transient_growth,
     )
-    from beal.stability.complete import (
-        Event,
-    )
-    from beal.stability.critical import (
-        CriticalThrust,
-        critical_events,
-        critical_thrust,
-    )
-    from beal.stability.curve import (
-        ThrustCurve,
-        thrust_curve,
-    )
-    from beal.stability.floquet import (
-        Floquet,
-        floquet,
-    )
-    from beal.stability.resonances import (
-        Resonance,
-    )
-    from beal.stability.spectrum import (
-        Spectrum,
-        spectrum,
-    )
-    from beal.stability.vanishing import (
-        vanishing_damping_limit,
-    )
-    from beal.study.flight import (
-        Flight,
-        FlightState,
-        flight,
-    )
-    from beal.study.map import (
-        stability_map,
-    )
-    from beal.study.pulsating import (
-        floquet_chart,
-    )
-    from beal.study.refined import (
-        RefinedMap,
-        refined_map,
-    )
-    from beal.vehicle import (
-        catalog,
-    )
-    from beal.vehicle.control import (
-        Actuator,
-        Control,
-        Engine,
-        Filter,
-        Gain,
-    )
-    from beal.vehicle.file import (
-        dumps,
-        loads,
-    )
+    from beal.stability.complete import Event
+    from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
+    from beal.stability.curve import ThrustCurve, thrust_curve
+    from beal.stability.floquet import Floquet, floquet
+    from beal.stability.resonances import Resonance
+    from beal.stability.spectrum import Spectrum, spectrum
+    from beal.stability.vanishing import vanishing_damping_limit
+    from beal.study.flight import Flight, FlightState, flight
+    from beal.study.map import stability_map
+    from beal.study.pulsating import floquet_chart
+    from beal.study.refined import RefinedMap, refined_map
+    from beal.vehicle import catalog
+    from beal.vehicle.control import Actuator, Control, Engine, Filter, Gain
+    from beal.vehicle.file import dumps, loads
     from beal.vehicle.parts import (
         AxialLoad,
         Damping,
@@ -169,23 +86,17 @@ if _typing.TYPE_CHECKING:
         Support,
         Thrust,
     )
-    from beal.vehicle.tanks import (
-        Tank,
-    )
-    from beal.vehicle.timeline import (
-        Timeline,
-    )
-    from beal.vehicle.vehicle import (
-        Vehicle,
-    )
-    from beal.verification.run import (
-        verify,
-    )
+    from beal.vehicle.tanks import Tank
+    from beal.vehicle.timeline import Timeline
+    from beal.vehicle.vehicle import Vehicle
+    from beal.verification.run import verify
 
 __version__ = _version("beal")
 
 _HOMES = {
     "Actuator": "beal.vehicle.control",
+    "AllowedInterval": "beal.design.ranges",
+    "AllowedRange": "beal.design.ranges",
     "AmplitudeMap": "beal.motion",
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
@@ -197,6 +108,7 @@ _HOMES = {
     "CriticalGradient": "beal.design.gradient",
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
+    "DesignSpace": "beal.design.variables",
     "DistributedThrust": "beal.vehicle.parts",
     "Distribution": "beal.design.distributions",
     "ElasticEnd": "beal.vehicle.parts",
@@ -211,11 +123,14 @@ _HOMES = {
     "FrequencySensitivity": "beal.design.frequencies",
     "Gain": "beal.vehicle.control",
     "Joint": "beal.vehicle.parts",
+    "LinearBound": "beal.design.variables",
+    "Link": "beal.design.variables",
     "Margins": "beal.control",
     "ModeShape": "beal.motion",
     "ModelError": "beal.errors",
     "MorrisEffects": "beal.design.indices",
     "Operators": "beal.discretisation.operators",
+    "Optimum": "beal.design.optimise",
     "Parameter": "beal.design.sensitivity",
     "PointMass": "beal.vehicle.parts",
     "PulsatingThrust": "beal.motion",
@@ -243,8 +158,10 @@ _HOMES = {
     "Timeline": "beal.vehicle.timeline",
     "TransientGrowth": "beal.motion",
     "Uncertain": "beal.design.uncertain",
+    "Variable": "beal.design.variables",
     "Vehicle": "beal.vehicle.vehicle",
     "WorstCase": "beal.design.robust",
+    "allowed_range": "beal.design.ranges",
     "amplitude_map": "beal.motion",
     "amplitude_spectrum": "beal.motion",
     "catalog": "beal.vehicle.catalog",
@@ -267,6 +184,7 @@ _HOMES = {
     "loads": "beal.vehicle.file",
     "morris_effects": "beal.design.indices",
     "open_loop": "beal.control",
+    "optimise": "beal.design.optimise",
     "plot": "beal.plot",
     "probability_of_instability": "beal.design.reliability",
     "refined_map": "beal.study.refined",
@@ -290,6 +208,8 @@ _HOMES = {
 
 __all__ = [
     "Actuator",
+    "AllowedInterval",
+    "AllowedRange",
     "AmplitudeMap",
     "AxialLoad",
     "BealError",
@@ -301,6 +221,7 @@ __all__ = [
     "CriticalGradient",
     "CriticalThrust",
     "Damping",
+    "DesignSpace",
     "DistributedThrust",
     "Distribution",
     "ElasticEnd",
@@ -315,11 +236,14 @@ __all__ = [
     "FrequencySensitivity",
     "Gain",
     "Joint",
+    "LinearBound",
+    "Link",
     "Margins",
     "ModeShape",
     "ModelError",
     "MorrisEffects",
     "Operators",
+    "Optimum",
     "Parameter",
     "PointMass",
     "PulsatingThrust",
@@ -347,8 +271,10 @@ __all__ = [
     "Timeline",
     "TransientGrowth",
     "Uncertain",
+    "Variable",
     "Vehicle",
     "WorstCase",
+    "allowed_range",
     "amplitude_map",
     "amplitude_spectrum",
     "catalog",
@@ -371,6 +297,7 @@ __all__ = [
     "loads",
     "morris_effects",
     "open_loop",
+    "optimise",
     "plot",
     "probability_of_instability",
     "refined_map",

@@ -32,7 +32,7 @@ from beal.vehicle.paths import with_values
 from beal.vehicle.vehicle import Vehicle
 
 TANGENCY = "thrust.tangency"
-_SPRING = re.compile(r"joint\[(\d+)\]\.(rotational_stiffness|shear_stiffness)")
+SPRING_PATH = re.compile(r"joint\[(\d+)\]\.(rotational_stiffness|shear_stiffness)")
 
 MODES = 8  # of the vehicle with these joints rigid, which the range of W holds
 THRUST_DEGREE, W_DEGREE = 15, 15  # of a patch
@@ -81,7 +81,7 @@ def tabulated(vehicle: Vehicle, path: str) -> bool:
     """
     if path == TANGENCY:
         return not vehicle.free_free
-    return _SPRING.fullmatch(path) is not None
+    return SPRING_PATH.fullmatch(path) is not None
 
 
 def reference(vehicle: Vehicle, path: str) -> float:
@@ -147,7 +147,7 @@ def panel(
 
 def _spring(path: str) -> tuple[int, int]:
     """Number of the joint and what jumps there."""
-    match = _SPRING.fullmatch(path)
+    match = SPRING_PATH.fullmatch(path)
     if match is None:
         raise ValueError(f"{path} is not a spring of a joint")
     return int(match[1]), ROTATION if match[2] == "rotational_stiffness" else DEFLECTION
