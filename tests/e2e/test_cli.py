@@ -29,6 +29,7 @@ COMMANDS = [
     "flight",
     "control",
     "floquet",
+    "explore",
     "map",
     "response",
     "reproduce",
@@ -346,7 +347,7 @@ def test_response_above_the_critical_thrust_grows(beal, tsto):
 def test_map_counts_what_it_wrote(result_of, written, tsto, tmp_path):
     study = f'model = "{tsto}"\n[grid]\n"stage.split" = {{values = [0.2, 0.6]}}\n'
     study += '"joint[0].rotational_stiffness" = {from = 1, to = 1e4, points = 2, spacing = "log"}\n'
-    counted = result_of("explore", "map", written(study, "study.toml"), "-o", "map.zarr")
+    counted = result_of("map", written(study, "study.toml"), "-o", "map.zarr")
     with xarray.open_zarr(tmp_path / "map.zarr") as found:
         assert dict(found.sizes) == {"stage.split": 2, "joint[0].rotational_stiffness": 2}
         assert (counted["lowest"], counted["highest"]) == (found.critical_thrust.min(), found.critical_thrust.max())
