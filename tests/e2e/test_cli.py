@@ -29,6 +29,7 @@ COMMANDS = [
     "flight",
     "control",
     "floquet",
+    "explore",
     "sensitivity",
     "map",
     "uncertainty",
