@@ -68,6 +68,18 @@ def test_a_folder_is_no_model(beal, tmp_path):
     assert "cannot be read: Is a directory" in refusal(beal("critical", tmp_path))
 
 
+def test_numbers_beyond_all_arithmetic_leave_no_traceback(beal, written):
+    model = written(
+        'units = "nondimensional"\n[[stage]]\nlength = 0.6\nmass_per_length = 1\nbending_stiffness = 1\n'
+        "[[stage]]\nlength = 0.4\nmass_per_length = 1\nbending_stiffness = 1\n"
+        "[[joint]]\nrotational_stiffness = 1e300\nshear_stiffness = 1e4\n"
+    )
+    done = beal("critical", model)
+    assert done.returncode == 3
+    assert "too large or too far apart" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_a_model_that_may_not_be_read_is_refused(beal):
     # Root may read what any permission forbids; a path through a file, nobody.
     assert "cannot be read: Not a directory" in refusal(beal("modes", "/dev/null/model.toml"))

@@ -125,3 +125,18 @@ def test_the_largest_motion_is_mapped_over_thrust_and_force(model, result_of, be
     assert [float(row["largest_displacement"]) for row in rows(tmp_path / "map.csv")] == amplitude.ravel().tolist()
     assert (tmp_path / "map.png").is_file()
     assert "largest displacement at tip within 5: " in beal_here("amplitude", model(), *options).stdout
+
+
+def test_a_vehicle_whose_attitude_diverges_is_not_called_stable(written, result_of):
+    free = MODEL.format(thrust="tangency = 1.2", more="").replace('nose = "clamped"', 'nose = "free"')
+    below, beyond = (
+        result_of("response", written(free), "--duration", 15, "--thrust", thrust, "--method", "exact")
+        for thrust in (25.0, 27.0)  # 25.638 is the critical one, of the rigid-body motion
+    )
+    assert below["growth_rate"] == 0.0
+    time, slope = (np.array(row) for row in (beyond["time"], beyond["sensors"]["tip"]["slope"]))
+    late = len(time) // 2
+    rate = np.log(slope[-1] / slope[late]) / (time[-1] - time[late])
+    assert beyond["growth_rate"] == pytest.approx(rate, rel=1e-3)
+    elastic = result_of("response", written(free), "--duration", 1, "--thrust", 27, "--elastic")["growth_rate"]
+    assert elastic == 0.0

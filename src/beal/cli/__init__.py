@@ -26,6 +26,8 @@ def main() -> None:
         _fail(str(error), BAD_INPUT)
     except ConvergenceError as error:
         _fail(str(error), NOT_CONVERGED)
+    except (OverflowError, ValueError) as error:  # of which LinAlgError is one
+        _fail(f"the numbers of this model are too large or too far apart to be computed with: {error}", NOT_CONVERGED)
     except OSError as error:
         _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD_INPUT)
     except KeyboardInterrupt:

@@ -61,7 +61,7 @@ def response(
     from beal.motion import PARTS
     from beal.motion import response as motion_of
     from beal.report.records import response_record
-    from beal.stability.spectrum import spectrum
+    from beal.stability.growth import largest_growth_rate
 
     if told not in VIEWS:
         raise ModelError(f"--as: must be one of {', '.join(VIEWS)}, found {told!r}")
@@ -75,7 +75,7 @@ def response(
         options: dict[str, Any] = {"step": step, "method": method, "initial": start, "rigid_body": not elastic}
         found = motion_of(operators, duration, given, **options)
         steady = (given is None and not vehicle.thrust.signal) or isinstance(given, float)
-        growth = float(spectrum(operators, found.thrust, count=6).growth_rate.max()) if steady else None
+        growth = largest_growth_rate(operators, found.thrust, not elastic) if steady else None
         seen = view(found, told)
         axis, along, values = seen
         write(columns(found, seen), lambda: results.at_sensors(found, *seen))
