@@ -174,6 +174,7 @@ def test_a_joint_is_moved_by_the_keyboard_and_by_the_pointer(page):
     joint.focus()
     page.keyboard.press("ArrowLeft")
     playwright.expect(page.locator("#q-stage-split")).to_have_value("0.59")
+    playwright.expect(joint).to_have_attribute("aria-valuenow", "0.59")  # drawn there, too
     page.click("#play")
     box = joint.bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
