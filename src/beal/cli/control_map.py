@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beal.cli.figures import control_map_figure, named, new_figure
-from beal.cli.output import check_folder, emit, note, progress_bar
+from beal.cli.output import check_new_folder, emit, note, progress_bar
 from beal.errors import ModelError
 from beal.report.numbers import quantity
 
@@ -47,9 +47,7 @@ def show_map(
     if points < 2:
         raise ModelError(f"--points: must be at least 2, found {points}")
     if output:
-        check_folder(output)
-        if output.exists():
-            raise ModelError("exists already; name another place or remove it", str(output))
+        check_new_folder(output)
     with new_figure(figure, as_json) as draw, progress_bar() as progress:
         values, thrusts = linspace(start, end, points), linspace(0.0, top, points + 1)[1:]
         chart = control_map(vehicle, over, values, thrusts, modes, lambda *n: progress(f"values of {over}", *n))

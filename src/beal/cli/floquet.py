@@ -10,7 +10,7 @@ from beal.cli.figures import floquet_figure, multipliers_figure, named, new_figu
 from beal.cli.grids import GRID, values
 from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Model, Report
-from beal.cli.output import Answer, check_folder, emit, progress_bar, show
+from beal.cli.output import Answer, check_new_folder, emit, progress_bar, show
 from beal.cli.reports import new_report
 from beal.errors import ModelError
 from beal.report.numbers import digits
@@ -81,9 +81,7 @@ def _chart(
             return floquet_chart(
                 vehicle, thrust, frequencies, amplitudes, modes, lambda *n: progress("frequencies", *n)
             )
-    check_folder(out)
-    if out.exists():
-        raise ModelError("exists already; name another place or remove it", str(out))
+    check_new_folder(out)
     chart = _chart(vehicle, thrust, frequencies, amplitudes, modes, None)
     write_chart(chart, Place.of(out))
     return chart

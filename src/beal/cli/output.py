@@ -179,6 +179,18 @@ def new_result(path: Path | None) -> Iterator["Callable[[dict[str, Any], Callabl
             yield lambda columns, dataset: write_columns(file, columns)
 
 
+def check_new_folder(path: Path) -> None:
+    """Refuse the name of a result folder that cannot be made or is there already.
+
+    Raises
+    ------
+    ModelError
+    """
+    check_folder(path)
+    if path.exists():
+        raise ModelError("exists already; name another place or remove it", str(path))
+
+
 def make_folder(path: Path) -> None:
     """Make a result folder and those above it.
 

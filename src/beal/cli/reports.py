@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from html import escape
 from importlib.metadata import version
-from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,9 +57,10 @@ def new_report(path: Path | None, quiet: bool) -> Iterator[Tell]:
 
 def page(vehicle: "Vehicle", question: str, answer: Answer, figures: Mapping[str, Draw]) -> str:
     """The page: what was asked, the answer, figures, the vehicle, and how to get it again."""
+    from beal.notebook.pictures import image
     from beal.notebook.vehicle import vehicle as described
     from beal.plot import style
-    from beal.report import Page, data_uri, table
+    from beal.report import Page, table
     from beal.vehicle.file import dumps
 
     title = f"{vehicle.title or 'Vehicle'}: {question}"
@@ -74,11 +74,8 @@ def page(vehicle: "Vehicle", question: str, answer: Answer, figures: Mapping[str
             cells = [list(map(cell, row)) for row in rows]
             found.add(table([escape(name) for name in columns], cells, numeric=range(1, len(columns))))
     for number, (caption, draw) in enumerate(figures.items(), 1):
-        file = BytesIO()
         with style():
-            draw().savefig(file, format="svg", metadata={"Date": None})
-        image = f'<img alt="{escape(caption)}" src="{data_uri(file.getvalue(), "svg")}">'
-        found.figure(f"figure-{number}", image, f"Figure {number}", escape(caption))
+            found.figure(f"figure-{number}", image(draw(), caption), f"Figure {number}", escape(caption))
     found.section("vehicle", "Vehicle")
     found.add(*described(vehicle))
     found.section("again", "Again")

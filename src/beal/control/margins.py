@@ -13,12 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import block_diag, eigvals
 
-from beal.control.closed import thrust_of
 from beal.control.compensator import Array
-from beal.control.loop import Loop, law_of
+from beal.control.loop import Loop
 from beal.control.opened import broken, opened
 from beal.discretisation import Operators
-from beal.errors import ModelError
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
@@ -136,13 +134,8 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
     >>> [(margin.mode, round(margin.degrees, 2)) for margin in found.phase]
     [(0, 65.85), (1, -120.21), (1, 64.97)]
     """
-    vehicle = model if isinstance(model, Vehicle) else model.vehicle
-    law_of(vehicle)
-    thrust = thrust_of(vehicle, thrust)
-    if modes < 1:
-        raise ModelError(f"modes: must be at least 1, found {modes}")
     with one_thread():
-        small = broken(model, modes)
+        small, thrust = broken(model, thrust, modes)
         if small.static or not thrust:
             return Margins(thrust, (), ())
         A, B, C, D = opened(small, thrust)

@@ -50,25 +50,25 @@ def open_loop(model: Vehicle | Operators, thrust: float | None = None, modes: in
     >>> round(float(abs(value)) * 0.1**2 / (6 * 0.01 * 0.5), 3)
     1.0
     """
-    vehicle = model if isinstance(model, Vehicle) else model.vehicle
-    law_of(vehicle)
-    thrust = thrust_of(vehicle, thrust)
-    if modes < 1:
-        raise ModelError(f"modes: must be at least 1, found {modes}")
     with one_thread():
-        small = broken(model, modes)
+        small, thrust = broken(model, thrust, modes)
         A, B, C, D = opened(small, thrust)
-    n = len(small.kept)
+    vehicle, n = small.operators.vehicle, len(small.kept)
     names = [f"p{k}" for k in range(1, n + 1)]
     states = (*names, *(f"{name}_rate" for name in names), *(f"z{k}" for k in range(1, len(A) - 2 * n + 1)))
     unit = ("rad",) if vehicle.units == "SI" else ("",)
     return StateSpace(A, B, C, np.array([[D]]), states, ("sensed",), ("returned",), unit, unit, thrust)
 
 
-def broken(model: Vehicle | Operators, modes: int) -> Loop:
-    """The loop in few coordinates, in which as many modes as asked for are exact."""
+def broken(model: Vehicle | Operators, thrust: float | None, modes: int) -> tuple[Loop, float]:
+    """The loop in few coordinates, in which as many modes as asked for are exact, and the thrust."""
+    vehicle = model if isinstance(model, Vehicle) else model.vehicle
+    law_of(vehicle)
+    thrust = thrust_of(vehicle, thrust)
+    if modes < 1:
+        raise ModelError(f"modes: must be at least 1, found {modes}")
     closed = next(refinements(model, 2 * modes)) if isinstance(model, Vehicle) else loop(model)
-    return condensed(closed, 3 * modes)
+    return condensed(closed, 3 * modes), thrust
 
 
 def opened(closed: Loop, thrust: float) -> tuple[Array, Array, Array, float]:

@@ -37,9 +37,25 @@ def picture(draw: "Callable[[Any, Figure], object]", title: str, width: float = 
         return "<p>Figures need matplotlib: install beal[plot].</p>"
     from matplotlib.figure import Figure
 
-    file = BytesIO()
     with plot.style():
         figure = Figure(figsize=(width, height), layout="constrained")
         draw(plot, figure)
-        figure.savefig(file, format="svg", metadata={"Date": None})  # the same each time
+        return image(figure, title)
+
+
+def image(figure: "Figure", title: str) -> str:
+    """A figure as an image element.
+
+    Parameters
+    ----------
+    figure : Figure
+    title : str
+        For those who cannot see it.
+
+    Returns
+    -------
+    str
+    """
+    file = BytesIO()
+    figure.savefig(file, format="svg", metadata={"Date": None})  # the same each time
     return f'<img alt="{escape(title)}" src="{data_uri(file.getvalue(), "svg")}">'
