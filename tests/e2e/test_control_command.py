@@ -127,3 +127,15 @@ def test_bad_input_is_told_in_one_message(written, beal_here, change, options, m
     assert done.returncode == 2
     assert message in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("drawn", ["nyquist", "nichols"])
+def test_without_thrust_nothing_is_controlled_and_nothing_breaks(written, result_of, beal_here, tmp_path, drawn):
+    damped = MODEL.replace("bending_stiffness = 1.0", "bending_stiffness = 1.0\ninternal_damping = 0.001")
+    model = written(damped)
+    found = result_of("control", model, "--thrust", 0)
+    assert found["stable"]
+    assert found["rigid_body_roots"] == [[0.0, 0.0]] * 4  # nothing acts on translation and rotation
+    assert "P = 0: stable; 4 zero roots" in beal_here("control", model, "--thrust", 0).stdout
+    result_of("control", model, "--thrust", 0, "--draw", drawn, "--figure", "open.png")
+    assert (tmp_path / "open.png").is_file()

@@ -152,7 +152,7 @@ def _least(found: "ClosedLoop") -> dict[str, Any]:
     return {
         "root": [root.real, root.imag],
         "angular_frequency": abs(root.imag),
-        "damping_ratio": -root.real / abs(root),
+        "damping_ratio": -root.real / abs(root) if root else 0.0,
     }
 
 
@@ -177,8 +177,8 @@ def _answer(vehicle: "Vehicle", found: "ClosedLoop", margins: "Margins", critica
     else:
         state = f"unstable, its motion grows as exp({root.real:.4g} t)"
     drift = f"; {found.drift} zero roots of rigid-body drift" if found.drift else ""
-    upper = [root for root in found.roots[found.drift :].tolist() if root.imag >= 0]
-    rows = [[root.real + 0.0, root.imag, -root.real / abs(root) + 0.0] for root in upper]
+    moving = zip(found.roots[found.drift :].tolist(), found.damping_ratio[found.drift :].tolist(), strict=True)
+    rows = [[root.real + 0.0, root.imag, ratio + 0.0] for root, ratio in moving if root.imag >= 0]
     columns = ["real part [1/s]", "imaginary part [rad/s]"] if si else ["real part", "imaginary part"]
     if si:
         rows = [[real, imag, imag / (2 * math.pi), ratio] for real, imag, ratio in rows]

@@ -62,12 +62,12 @@ class ClosedLoop(Shown):
     @property
     def least_damped(self) -> complex:
         """The root that is closest to growing or grows most for its modulus, with Im s >= 0, in rad/s."""
-        moving = self.roots[self.drift :]
-        return complex(moving[np.argmax(moving.real / np.abs(moving) + 1e-12 * (moving.imag >= 0))])
+        moving, ratio = self.roots[self.drift :], self.damping_ratio[self.drift :]
+        return complex(moving[np.argmin(ratio - 1e-12 * (moving.imag >= 0))])
 
     @property
     def damping_ratio(self) -> Array:
-        """-Re s/|s| of each root, 0 for the drift."""
+        """-Re s/|s| of each root, 0 where s = 0."""
         size = np.abs(self.roots)
         return np.asarray(np.where(size > 0, -self.roots.real, 0.0) / np.where(size > 0, size, 1.0))
 
@@ -121,7 +121,7 @@ def closed_loop(model: Vehicle | Operators, thrust: float | None = None, modes: 
         if isinstance(model, Operators):
             closed = loop(model)
             s = lowest_roots(closed, thrust, modes)
-            return ClosedLoop(thrust, s, closed.zero_roots, np.full(len(s), np.nan), vehicle.units)
+            return ClosedLoop(thrust, s, closed.drift(thrust), np.full(len(s), np.nan), vehicle.units)
         before, best = np.empty(0, dtype=complex), np.inf
         for closed in refinements(vehicle, modes):
             s = lowest_roots(closed, thrust, modes)
@@ -129,7 +129,7 @@ def closed_loop(model: Vehicle | Operators, thrust: float | None = None, modes: 
                 error = np.abs(s[:, None] - before).min(axis=1)
                 change = float(np.max(error / np.maximum(np.abs(s), closed.speed)))
                 if change < best:
-                    best, found = change, ClosedLoop(thrust, s, closed.zero_roots, error, vehicle.units)
+                    best, found = change, ClosedLoop(thrust, s, closed.drift(thrust), error, vehicle.units)
                 if best < GOOD:
                     return found
             before = s
@@ -170,7 +170,7 @@ def lowest_roots(closed: Loop, thrust: float, modes: int) -> ComplexArray:
     s = _undamped(closed, thrust) if closed.static else roots(*closed.matrices(thrust), closed.speed)
     drift = 2 * (len(closed.operators.M) - len(closed.kept))
     s = np.concatenate((np.zeros(drift, dtype=complex), s))
-    s[: closed.zero_roots] = 0.0
+    s[: closed.drift(thrust)] = 0.0
     split = np.abs(s[:count].imag.sum()) > UNPAIRED * np.abs(s[:count]).max()
     return np.asarray(s[: count + split])
 

@@ -71,6 +71,13 @@ class Loop:
         """Roots that are zero at every thrust: two of a motion that only follows, and those of the others."""
         return 2 * (len(self.operators.M) - len(self.kept)) + self.resting
 
+    def drift(self, thrust: float) -> int:
+        """Roots that are zero at a thrust; without any nothing acts on a free vehicle but an engine's inertia."""
+        if thrust or self.w.any() or self.operators.dead is not None:
+            return self.zero_roots
+        law = self.operators.vehicle.control
+        return 2 * self.operators.rigid + (sum(part.integrates for part in law.filters) if law else 0)
+
     @cached_property
     def resting(self) -> int:
         """Zero roots of the motions that are kept: one of a drift that rates alone resist, two of a free one."""

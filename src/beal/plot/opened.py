@@ -136,7 +136,7 @@ def _phase(L: Array) -> Array:
 
 
 def _decibel(L: Array) -> Array:
-    return np.asarray(20 * np.log10(np.abs(L)))
+    return np.asarray(20 * np.log10(np.maximum(np.abs(L), np.finfo(float).tiny)))  # L may vanish
 
 
 def _crossed(loop: StateSpace, margins: Margins | None) -> list[tuple[str, Array, str]]:
