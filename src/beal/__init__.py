@@ -36,7 +36,7 @@ if _typing.TYPE_CHECKING:
     from beal.design.sampling import Sample, sample
     from beal.design.sensitivity import Parameter, Rival, Sensitivity, sensitivity
     from beal.design.uncertain import Uncertain
-    from beal.design.variables import DesignSpace, LinearBound, Link, Variable
+    from beal.design.variables import DesignSpace, LinearBound, Variable
     from beal.discretisation.build import discretise
     from beal.discretisation.operators import Operators
     from beal.errors import BealError, ConvergenceError, ModelError
@@ -73,6 +73,7 @@ if _typing.TYPE_CHECKING:
     from beal.vehicle import catalog
     from beal.vehicle.control import Actuator, Control, Engine, Filter, Gain
     from beal.vehicle.file import dumps, loads
+    from beal.vehicle.links import Link
     from beal.vehicle.parts import (
         AxialLoad,
         Damping,
@@ -124,7 +125,7 @@ _HOMES = {
     "Gain": "beal.vehicle.control",
     "Joint": "beal.vehicle.parts",
     "LinearBound": "beal.design.variables",
-    "Link": "beal.design.variables",
+    "Link": "beal.vehicle.links",
     "Margins": "beal.control",
     "ModeShape": "beal.motion",
     "ModelError": "beal.errors",

@@ -1,6 +1,7 @@
 """Studies: the grid, the study file, and what happens at points that cannot be solved."""
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 import beal
 from beal.study.file import load_study
+from beal.study.map import study_map
 from beal.study.store import METHODS
 from beal.study.study import Solve, Study, spaced
 
@@ -87,6 +89,42 @@ def test_a_point_that_the_model_refuses_is_invalid_and_the_others_are_solved():
     assert result["status"].values.tolist() == [1, 3, 1]
     assert np.isnan(result["critical_thrust"].values[1])
     assert result["status"].attrs["flag_meanings"].split()[3] == "invalid"
+
+
+def test_linked_quantities_follow_their_axis(tmp_path):
+    path = study_file(
+        tmp_path,
+        f"""
+        model = "tsto.toml"
+        [grid]
+        "stage[0].bending_stiffness" = {{values = [1.0, 2.0]}}
+        "{ROTATIONAL}" = {{values = [5.0, 500.0]}}
+        [links]
+        "{SHEAR}" = {{of = "{ROTATIONAL}", factor = 40.0}}
+        "stage[0].mass_per_length" = {{of = "stage[0].bending_stiffness", power = 0.5}}
+        """,
+    )
+    study = load_study(path)
+    assert not study.tabulated(ROTATIONAL)
+    found = study_map(study, tmp_path / "out.zarr")
+    by_hand = beal.dumps(VEHICLE).replace("5000.0", "500.0", 1).replace("5000.0", "20000.0", 1)
+    changed = beal.loads(by_hand)
+    first = changed.stages[0].model_copy(update={"bending_stiffness": 2.0, "mass_per_length": math.sqrt(2)})
+    direct = beal.critical_thrust(changed.model_copy(update={"stages": (first, changed.stages[1])}))
+    assert found.critical_thrust.values[1, 1] == pytest.approx(direct.critical_thrust, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("path", "of", "message"),
+    [
+        (ROTATIONAL, ROTATIONAL, "is an axis and linked to one"),
+        (SHEAR, "stage.split", "follows stage.split, which is not an axis"),
+        ("joint[3].shear_stiffness", ROTATIONAL, "index out of range"),
+    ],
+)
+def test_a_link_that_cannot_be_followed_is_refused(path, of, message):
+    with pytest.raises(beal.ModelError, match=re.escape(message)):
+        Study(VEHICLE, {ROTATIONAL: (1.0, 2.0)}, Solve(), {path: beal.Link(of)})
 
 
 def test_a_vehicle_stable_to_the_limit_has_kind_stable_and_no_thrust():

@@ -1,6 +1,7 @@
 """Inverse design: the values of one quantity that keep the critical thrust at a target or above."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -15,6 +16,7 @@ from beal.stability.table import SPRING_PATH, reference
 from beal.study.solve import solve_points
 from beal.study.store import STATUS
 from beal.study.study import Solve, Study
+from beal.vehicle.links import Link
 from beal.vehicle.paths import value_at
 from beal.vehicle.vehicle import Vehicle
 
@@ -97,6 +99,7 @@ def allowed_range(
     points: int = 101,
     formulation: Formulation = "objective",
     modes: int | None = None,
+    links: Mapping[str, Link] | None = None,
 ) -> AllowedRange:
     """All values of a quantity between two ends that keep the critical thrust at a target or above.
 
@@ -123,6 +126,8 @@ def allowed_range(
         Of the scan.
     formulation, modes
         As for `beal.critical_thrust`.
+    links : mapping of str to Link, optional
+        By the path of a quantity that follows this one.
 
     Returns
     -------
@@ -147,7 +152,7 @@ def allowed_range(
     if points < 2:
         raise ModelError([("points", f"must be 2 or more, found {points}")])
     ends = (low, high)
-    study = Study(vehicle, {path: ends}, Solve(BEYOND * goal, 1e-8, formulation, modes))
+    study = Study(vehicle, {path: ends}, Solve(BEYOND * goal, 1e-8, formulation, modes), links or {})
     scan = np.linspace(0.0, 1.0, points)
     thrust = _scanned(study, place(scan))
     holds = thrust >= goal

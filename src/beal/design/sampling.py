@@ -16,7 +16,6 @@ from beal.design.uncertain import Uncertain
 from beal.discretisation.build import RITZ
 from beal.errors import ModelError
 from beal.stability.limit import default_limit
-from beal.stability.table import tabulated
 from beal.stability.threads import one_thread
 from beal.study.blocks import ALONE, DAMPED
 from beal.study.run import SMALL, Processes, cores, run
@@ -179,7 +178,7 @@ def median_vehicle(uncertain: Uncertain) -> Vehicle:
 def on_tables(study: Study) -> bool:
     """Whether all vehicles of a study, whatever the values, share one table."""
     ritz = study.solve.formulation in RITZ
-    return not ritz and not study.vehicle.damped and all(tabulated(study.vehicle, path) for path in study.axes)
+    return not ritz and not study.vehicle.damped and all(map(study.tabulated, study.axes))
 
 
 def _solved(study: Study, task: tuple[int, Array]) -> tuple[Array, NDArray[np.int8]]:

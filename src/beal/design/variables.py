@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from beal.errors import ModelError
+from beal.vehicle.links import Link, with_links
 from beal.vehicle.paths import value_at, with_values
 from beal.vehicle.vehicle import Vehicle
 
@@ -31,22 +32,6 @@ class Variable:
     low: float
     high: float
     spacing: Literal["linear", "log"] = "linear"
-
-
-@dataclass(frozen=True)
-class Link:
-    """A quantity that follows a variable: factor times its value to a power.
-
-    Parameters
-    ----------
-    of : str
-        Path of the variable.
-    factor, power : float
-    """
-
-    of: str
-    factor: float = 1.0
-    power: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -125,9 +110,7 @@ class DesignSpace:
 
     def at(self, shares: Sequence[float] | Array) -> Vehicle:
         """The vehicle at a point of the unit cube, whose sides are the variables from bound to bound."""
-        values = self.values(shares)
-        linked = {path: link.factor * values[link.of] ** link.power for path, link in self.links.items()}
-        return with_values(self.vehicle, values | linked)
+        return with_values(self.vehicle, with_links(self.values(shares), self.links))
 
     def values(self, shares: Sequence[float] | Array) -> dict[str, float]:
         """The variables there, by path."""

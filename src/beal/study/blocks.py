@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation.build import RITZ
-from beal.stability.table import tabulated
 from beal.study.study import Study
 
 Block = tuple[slice, ...]
@@ -94,7 +93,7 @@ def blocks(study: Study) -> Blocks:
     rows, sharing = target / _row(study), _sharing(study)
     room = rows * sharing if rows >= 1 else min(sharing, target / (TOGETHER if together(study) else _alone(study)))
     sizes = [1] * len(study.shape)
-    shared = [tabulated(study.vehicle, path) for path in study.axes]
+    shared = [study.tabulated(path) for path in study.axes]
     order = sorted(range(len(sizes)), key=lambda axis: (shared[axis], axis), reverse=True)
     for axis in order:
         fits = max(1, int(room / math.prod(sizes)))
@@ -107,7 +106,7 @@ def blocks(study: Study) -> Blocks:
 
 def _sharing(study: Study) -> int:
     """Points that share a table."""
-    return math.prod(n for path, n in zip(study.axes, study.shape, strict=True) if tabulated(study.vehicle, path))
+    return math.prod(n for path, n in zip(study.axes, study.shape, strict=True) if study.tabulated(path))
 
 
 def _row(study: Study) -> float:

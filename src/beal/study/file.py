@@ -11,6 +11,7 @@ from beal.interop.files import load
 from beal.study.study import Solve, Study, spaced
 from beal.vehicle.base import Part, problems, si
 from beal.vehicle.file import read_toml
+from beal.vehicle.links import Link
 
 MAX_AXIS = 1_000_000
 
@@ -50,12 +51,31 @@ class SolveEntry(Part):
     formulation: Formulation = "objective"
     modes: Annotated[int, Field(ge=1, strict=True)] | None = None
 
+    @property
+    def solve(self) -> Solve:
+        """As the library has it."""
+        return Solve(self.max_thrust, self.tolerance, self.formulation, self.modes)
+
+
+class LinkEntry(Part):
+    """``{of, factor, power}``."""
+
+    of: str
+    factor: Annotated[FiniteFloat, si("")] = 1.0
+    power: FiniteFloat = 1.0
+
+    @property
+    def link(self) -> Link:
+        """As the library has it."""
+        return Link(self.of, self.factor, self.power)
+
 
 class StudyEntry(Part):
     """The whole file."""
 
     model: str
     grid: dict[str, AxisEntry]
+    links: dict[str, LinkEntry] = Field(default_factory=dict)
     solve: SolveEntry = SolveEntry()
 
 
@@ -82,5 +102,4 @@ def load_study(path: str | Path) -> Study:
         raise ModelError([(f"{path}: {where}", message) for where, message in problems(error, StudyEntry)]) from None
     vehicle = load(Path(path).parent / entry.model)
     axes = {name: axis.resolved() for name, axis in entry.grid.items()}
-    solve = Solve(entry.solve.max_thrust, entry.solve.tolerance, entry.solve.formulation, entry.solve.modes)
-    return Study(vehicle, axes, solve)
+    return Study(vehicle, axes, entry.solve.solve, {path: link.link for path, link in entry.links.items()})

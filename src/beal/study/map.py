@@ -20,6 +20,7 @@ from beal.study.solve import solve_block
 from beal.study.store import Arrays, Store, attributes, empty, prepare, variable_attributes
 from beal.study.study import Solve, Study
 from beal.study.summary import Summary
+from beal.vehicle.links import Link
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ def stability_map(
     workers: int | None = None,
     progress: Progress | None = None,
     executor: Executor | None = None,
+    links: Mapping[str, Link] | None = None,
 ) -> "xarray.Dataset":
     """Critical thrust, kind and modes over a grid of vehicles.
 
@@ -67,6 +69,8 @@ def stability_map(
         Called with the number of points solved and of all points.
     executor : concurrent.futures.Executor, optional
         Solves the blocks in place of this machine's workers, such as ``client.get_executor()`` of dask.
+    links : mapping of str to Link, optional
+        By the path of a quantity that follows one of the axes.
 
     Returns
     -------
@@ -88,7 +92,36 @@ def stability_map(
     [2, 1]
     """
     named = {path: tuple(float(value) for value in values) for path, values in axes.items()}
-    study = Study(vehicle, named, Solve(max_thrust, tolerance, formulation, modes))
+    study = Study(vehicle, named, Solve(max_thrust, tolerance, formulation, modes), links or {})
+    return study_map(study, out, resume, workers, progress, executor)
+
+
+def study_map(
+    study: Study,
+    out: str | Path | None = None,
+    resume: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    executor: Executor | None = None,
+) -> "xarray.Dataset":
+    """Solves all points of a study.
+
+    Parameters
+    ----------
+    study : Study
+    out, resume, workers, progress, executor
+        As for `stability_map`.
+
+    Returns
+    -------
+    xarray.Dataset
+        As from `stability_map`.
+
+    Raises
+    ------
+    ModelError
+        As from `stability_map`.
+    """
     if out is None:
         return _in_memory(study, workers, progress, executor)
     run_study(study, out, resume, workers, progress, executor)

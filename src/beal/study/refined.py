@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation import Formulation
-from beal.stability.table import tabulated
 from beal.study.blocks import together
 from beal.study.lattice import ONE, Index, Integers, Lattice
-from beal.study.map import Progress, stability_map
+from beal.study.map import Progress, study_map
 from beal.study.place import Place
 from beal.study.points import GROUP, PointStore, Variable
 from beal.study.refine import LIMIT, Refined, refine
@@ -24,6 +23,7 @@ from beal.study.run import run, workers_for
 from beal.study.solve import solve_points
 from beal.study.store import VARIABLES, Arrays, attributes, empty, variable_attributes
 from beal.study.study import Solve, Study
+from beal.vehicle.links import Link
 from beal.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ def refined_map(
     progress: Progress | None = None,
     executor: Executor | None = None,
     limit: int = LIMIT,
+    links: Mapping[str, Link] | None = None,
 ) -> RefinedMap:
     """Stability map with the borders between its regions resolved to a width.
 
@@ -84,7 +85,7 @@ def refined_map(
         the axis, logarithmic or linear. At most six axes with more than one value.
     width : float
         Widest cell on a border, as a share of each axis' whole range, such as 0.001.
-    formulation, modes, max_thrust, tolerance, out, resume, workers, executor
+    formulation, modes, max_thrust, tolerance, out, resume, workers, executor, links
         As for `stability_map`; in ``out`` the points are kept in the group ``refined``, and are not solved again when
         the map is resumed or refined to another width.
     progress : callable, optional
@@ -114,7 +115,7 @@ def refined_map(
     '11.021 11.028'
     """
     named = {path: tuple(float(value) for value in values) for path, values in axes.items()}
-    study = Study(vehicle, named, Solve(max_thrust, tolerance, formulation, modes))
+    study = Study(vehicle, named, Solve(max_thrust, tolerance, formulation, modes), links or {})
     return run_refined(study, width, out, resume, workers, progress, executor, limit)
 
 
@@ -146,9 +147,7 @@ def run_refined(
         As from `refined_map`.
     """
     lattice = Lattice(study.axes, width)
-    how = study.solve
-    found = (how.formulation, how.modes, how.max_thrust, how.tolerance)
-    grid = stability_map(study.vehicle, study.axes, *found, out, resume, workers, progress, executor)
+    grid = study_map(study, out, resume, workers, progress, executor)
     columns = _Columns(study, lattice)
     store = None if out is None else PointStore(Place.of(out), columns.points(lattice.nowhere, empty((0,))))
     solve = _Solver(columns, store, workers, executor, progress)
@@ -240,7 +239,7 @@ class _Solver:
 
 def _parts(study: Study, values: Values, points: NDArray[np.intp]) -> Iterator[Part]:
     """Points in parts of about one cost, those that differ in springs alone next to each other."""
-    others = [axis for axis, path in enumerate(study.axes) if not tabulated(study.vehicle, path)]
+    others = [axis for axis, path in enumerate(study.axes) if not study.tabulated(path)]
     if others:
         points = points[np.lexsort(values[points][:, others].T)]
     size = MOST if together(study) else FEW

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.critical import CriticalThrust, critical_thrust
 from beal.stability.kernels.rules import DIVERGENCE, STABLE, UNDECIDED
-from beal.stability.table import TANGENCY, tabulated
+from beal.stability.table import TANGENCY
 from beal.study.batch import WORTHWHILE, solve_together
 from beal.study.blocks import Block
 from beal.study.store import KINDS, METHODS, STATUS, Arrays, empty
@@ -42,7 +42,7 @@ def solve_points(study: Study, values: Values) -> Arrays:
         The variables of `beal.study.store.VARIABLES`.
     """
     arrays = empty((len(values),))
-    shared = {axis: path for axis, path in enumerate(study.axes) if tabulated(study.vehicle, path)}
+    shared = {axis: path for axis, path in enumerate(study.axes) if study.tabulated(path)}
     others = [axis for axis in range(values.shape[1]) if axis not in shared]
     _, group = np.unique(values[:, others], axis=0, return_inverse=True)
     for points in np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1]):

@@ -24,6 +24,7 @@ from beal.study.blocks import Blocks, blocks
 from beal.study.place import Place
 from beal.study.study import Solve, Study
 from beal.vehicle.file import loads
+from beal.vehicle.links import Link
 
 STATUS = ("pending", "solved", "not_converged", "invalid")
 KINDS = ("stable", "flutter", "divergence")
@@ -220,7 +221,8 @@ class _Opened:
         dimensions: Iterable[Any] = self.arrays["status"].metadata.dimension_names or ()  # type: ignore[union-attr]
         axes = {path: tuple(np.asarray(self.group[path][:]).tolist()) for path in dimensions}  # type: ignore[index]
         solve = {key.removeprefix("solve."): json.loads(text) for key, text in inputs.items() if key[:6] == "solve."}
-        return Study(loads(inputs["model"]), axes, Solve(**solve))
+        links = {key[len("links.") :]: Link(**json.loads(text)) for key, text in inputs.items() if key[:6] == "links."}
+        return Study(loads(inputs["model"]), axes, Solve(**solve), links)
 
 
 @lru_cache(maxsize=4)

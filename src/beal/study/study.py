@@ -4,14 +4,16 @@ import hashlib
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 from beal.discretisation.build import FORMULATIONS, RITZ, Formulation, check_ritz
 from beal.errors import ModelError
+from beal.stability.table import tabulated
 from beal.vehicle.file import dumps
-from beal.vehicle.paths import with_values
+from beal.vehicle.links import Link, with_links
+from beal.vehicle.paths import value_at, with_values
 from beal.vehicle.vehicle import Vehicle
 
 POINTS = 10_000_000_000  # beyond this a grid is more likely a mistake than a plan
@@ -49,11 +51,14 @@ class Study:
     axes : mapping of str to tuple of float
         Values of each quantity, named by its path in the model; the first axis varies slowest.
     solve : Solve
+    links : mapping of str to Link
+        By the path of a quantity that follows one of the axes.
     """
 
     vehicle: Vehicle
     axes: Mapping[str, tuple[float, ...]]
     solve: Solve
+    links: Mapping[str, Link] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         problems = []
@@ -75,8 +80,15 @@ class Study:
             problems.append(("solve.max_thrust", f"must be a positive number, found {self.solve.max_thrust}"))
         if not 1e-13 <= self.solve.tolerance < 1:
             problems.append(("solve.tolerance", f"must lie between 1e-13 and 1, found {self.solve.tolerance}"))
+        for path, link in self.links.items():
+            if path in self.axes:
+                problems.append((f"links.{path}", "is an axis and linked to one; keep one of the two"))
+            if link.of not in self.axes:
+                problems.append((f"links.{path}", f"follows {link.of}, which is not an axis"))
         if problems:
             raise ModelError(problems)
+        for path in self.links:
+            value_at(self.vehicle, path)
         for path, axis in self.axes.items():
             with_values(self.vehicle, {path: axis[0]})
         if self.solve.formulation in RITZ:  # else every point would be invalid, for the same reason
@@ -89,13 +101,19 @@ class Study:
 
     def at(self, values: Iterable[float]) -> Vehicle:
         """The vehicle with a value on each axis, on the grid or off it."""
-        return with_values(self.vehicle, dict(zip(self.axes, (float(value) for value in values), strict=True)))
+        named = dict(zip(self.axes, map(float, values), strict=True))
+        return with_values(self.vehicle, with_links(named, self.links))
+
+    def tabulated(self, path: str) -> bool:
+        """Whether vehicles that differ on this axis alone share a table."""
+        return tabulated(self.vehicle, path) and all(link.of != path for link in self.links.values())
 
     @property
     def inputs(self) -> dict[str, str]:
         """Everything that the result depends on, each part as text, so that two studies can be compared."""
         parts = {"model": dumps(self.vehicle)}
         parts |= {f"grid.{path}": _text(values) for path, values in self.axes.items()}
+        parts |= {f"links.{path}": json.dumps(asdict(link)) for path, link in self.links.items()}
         return parts | {f"solve.{name}": json.dumps(value) for name, value in asdict(self.solve).items()}
 
     @property

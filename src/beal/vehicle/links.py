@@ -1,0 +1,31 @@
+"""Quantities that follow others."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Link:
+    """A quantity that follows another: factor times its value to a power.
+
+    Parameters
+    ----------
+    of : str
+        Path of the other.
+    factor, power : float
+    """
+
+    of: str
+    factor: float = 1.0
+    power: float = 1.0
+
+
+def with_links(values: Mapping[str, float], links: Mapping[str, Link]) -> dict[str, float]:
+    """Values by path, and those of the quantities that follow them.
+
+    Examples
+    --------
+    >>> with_links({"stage[0].length": 2.0}, {"stage[1].length": Link("stage[0].length", factor=0.5)})
+    {'stage[0].length': 2.0, 'stage[1].length': 1.0}
+    """
+    return {**values, **{path: link.factor * values[link.of] ** link.power for path, link in links.items()}}
