@@ -22,12 +22,12 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
 NAMES = (
     *("clusters", "control", "design", "explorer", "flight", "interop", "maps", "model", "motion", "notebook"),
-    *("pulsating", "sensitivity", "uncertainty"),
+    *("pulsating", "sensitivity", "uncertainty", "design_study"),
 )
 CLUSTERS, CONTROL, DESIGN, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, *LATER = (
     PAGES.get(name, "") for name in NAMES
 )
-PULSATING, SENSITIVITY, UNCERTAINTY = LATER
+PULSATING, SENSITIVITY, UNCERTAINTY, STUDY = LATER
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -108,6 +108,7 @@ def test_every_page_of_the_docs_is_executed():
     assert set(re.findall(r"^```(\w+)$", INTEROP, re.MULTILINE)) == {"console", "python", "csv"}
 
     assert set(re.findall(r"^```(\w+)$", SENSITIVITY, re.MULTILINE)) == {"console", "python"}
+    assert set(re.findall(r"^```(\w+)$", STUDY, re.MULTILINE)) == {"toml", "console"}
 
 
 def test_the_command_of_the_page_on_uncertainty_prints_what_is_shown(tmp_path):
@@ -116,6 +117,18 @@ def test_the_command_of_the_page_on_uncertainty_prints_what_is_shown(tmp_path):
     (block,) = blocks("console", UNCERTAINTY)
     command, _, shown = block.partition("\n")
     assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], tmp_path) == shown
+
+
+def test_the_command_of_the_page_on_design_studies_prints_what_is_shown(tmp_path):
+    for name, block in zip(("jointed", "joint"), blocks("toml", STUDY), strict=True):
+        (tmp_path / f"{name}.toml").write_text(block)
+    (block,) = blocks("console", STUDY)
+    command, _, shown = block.partition("\n")
+    assert run([*BEAL, *shlex.split(command.removeprefix("$ "))[1:]], tmp_path) == shown
+    page = (tmp_path / "joint.html").read_text(encoding="utf-8")
+    assert page.count("<figure") == 3  # map, sensitivities, scatter
+    assert "How stiff must the joint be" in page
+    assert "&quot;joint[0].rotational_stiffness&quot; = {low = 1.0, high = 1e3" in page
 
 
 def test_the_python_of_the_page_on_uncertainty_prints_what_it_says(tmp_path):

@@ -25,6 +25,8 @@ if _typing.TYPE_CHECKING:
         stability_margins,
         state_space,
     )
+    from beal.design.answer import DesignAnswer, design_answer
+    from beal.design.design_file import DesignStudy, load_design
     from beal.design.distributions import Distribution
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
     from beal.design.gradient import CriticalGradient, critical_gradient
@@ -109,7 +111,9 @@ _HOMES = {
     "CriticalGradient": "beal.design.gradient",
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
+    "DesignAnswer": "beal.design.answer",
     "DesignSpace": "beal.design.variables",
+    "DesignStudy": "beal.design.design_file",
     "DistributedThrust": "beal.vehicle.parts",
     "Distribution": "beal.design.distributions",
     "ElasticEnd": "beal.vehicle.parts",
@@ -173,6 +177,7 @@ _HOMES = {
     "critical_events": "beal.stability.critical",
     "critical_gradient": "beal.design.gradient",
     "critical_thrust": "beal.stability.critical",
+    "design_answer": "beal.design.answer",
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
     "envelope": "beal.motion",
@@ -182,6 +187,7 @@ _HOMES = {
     "frequency_sensitivity": "beal.design.frequencies",
     "growth_rate": "beal.motion",
     "load": "beal.interop.files",
+    "load_design": "beal.design.design_file",
     "loads": "beal.vehicle.file",
     "morris_effects": "beal.design.indices",
     "open_loop": "beal.control",
@@ -222,7 +228,9 @@ __all__ = [
     "CriticalGradient",
     "CriticalThrust",
     "Damping",
+    "DesignAnswer",
     "DesignSpace",
+    "DesignStudy",
     "DistributedThrust",
     "Distribution",
     "ElasticEnd",
@@ -286,6 +294,7 @@ __all__ = [
     "critical_events",
     "critical_gradient",
     "critical_thrust",
+    "design_answer",
     "discretise",
     "dumps",
     "envelope",
@@ -295,6 +304,7 @@ __all__ = [
     "frequency_sensitivity",
     "growth_rate",
     "load",
+    "load_design",
     "loads",
     "morris_effects",
     "open_loop",

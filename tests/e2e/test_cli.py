@@ -31,6 +31,7 @@ COMMANDS = [
     "floquet",
     "explore",
     "sensitivity",
+    "design",
     "map",
     "uncertainty",
     "response",

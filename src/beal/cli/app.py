@@ -11,6 +11,7 @@ from beal.cli.control import control
 from beal.cli.convert import convert
 from beal.cli.critical import critical
 from beal.cli.curve import curve
+from beal.cli.design import design
 from beal.cli.explore import explore
 from beal.cli.flight import flight
 from beal.cli.floquet import floquet
@@ -32,6 +33,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str]] = {
     "floquet": (floquet, "beal floquet tsto.toml --thrust 50 --amplitude 5 --angular-frequency 30"),
     "explore": (explore, "beal explore tsto.toml"),
     "sensitivity": (sensitivity, "beal sensitivity tsto.toml --figure tornado.png"),
+    "design": (design, "beal design study.toml --report design.html"),
     "map": (map_study, "beal map study.toml -o map.zarr"),
     "uncertainty": (uncertainty, "beal uncertainty study.toml --indices 1024 --figure scatter.png"),
     "response": (response, "beal response tsto.toml --duration 10 --initial mode:1:0.01"),

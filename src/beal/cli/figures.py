@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from beal.control import ControlLocus, Margins, StateSpace
+    from beal.design.answer import DesignAnswer
     from beal.design.sampling import Sample
     from beal.design.sensitivity import Sensitivity
     from beal.discretisation.operators import Operators
@@ -214,6 +215,17 @@ def sensitivity_figure(found: "Sensitivity") -> "Figure":
 
     figure = Figure(figsize=(1.3 * WIDE, 1.3 * HIGH), layout="constrained")
     plot.tornado(found, figure.subplots())
+    return figure
+
+
+def design_figure(found: "DesignAnswer") -> "Figure":
+    """The design among its neighbours."""
+    from matplotlib.figure import Figure
+
+    from beal import plot
+
+    figure = Figure(figsize=(WIDE, 1.3 * HIGH), layout="constrained")
+    plot.design_map(found, figure.subplots())
     return figure
 
 

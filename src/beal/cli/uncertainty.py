@@ -12,11 +12,8 @@ from beal.cli.output import emit, new_file, note, progress_bar, show_table, writ
 
 if TYPE_CHECKING:
     from beal.design.indices import Output
-    from beal.design.reliability import Estimate
     from beal.design.sampling import Progress, Sample
     from beal.design.uncertain_file import UncertaintyStudy
-
-QUANTILES = (0.01, 0.05, 0.5, 0.95)
 
 
 def uncertainty(
@@ -40,10 +37,10 @@ def uncertainty(
 ) -> None:
     """Distribution of the critical thrust, probability of instability, worst case and scenarios."""
     from beal.design.indices import thrust_output
-    from beal.design.reliability import probability_of_instability, thrust_quantile
     from beal.design.robust import scenarios, worst_case
     from beal.design.sampling import sample
     from beal.design.uncertain_file import load_uncertainty
+    from beal.report.records import sample_record
 
     task = load_uncertainty(study)
     asked = thrust if thrust is not None else task.vehicle.thrust.nominal
@@ -53,10 +50,7 @@ def uncertainty(
         effect = thrust_output(task.uncertain, None, task.solve, workers, reports["indices"]) if wanted else None
         imperfect = scenarios(task.vehicle, task.scenarios, task.solve) if task.scenarios else []
         found = sample(task.uncertain, task.samples, task.method, task.seed, task.solve, workers, reports["vehicles"])
-        quantiles = {q: thrust_quantile(found, q) for q in QUANTILES}
-        probability = None if asked is None else probability_of_instability(found, asked)
-        data: dict[str, Any] = {**_summary(found), "thrust": asked, "quantiles": _quantiles(quantiles)}
-        data["probability_of_instability"] = None if probability is None else asdict(probability)
+        data: dict[str, Any] = sample_record(found, asked)
         data["scenarios"] = [
             {"name": name, "critical_thrust": case.critical_thrust, "kind": case.kind} for name, case in imperfect
         ]
@@ -82,23 +76,6 @@ def _report(bar: Any, text: str) -> "Progress":
 
 def _columns(found: "Sample") -> dict[str, Any]:
     return dict(zip(found.paths, found.values.T, strict=True))
-
-
-def _summary(found: "Sample") -> dict[str, Any]:
-    kinds = {name: int((found.kind == n).sum()) for n, name in enumerate(("stable", "flutter", "divergence"))}
-    return {
-        "samples": found.count,
-        "method": found.method,
-        "seed": found.seed,
-        "kind": kinds,
-        "failed": found.failed,
-        "searched_to": found.searched_to,
-        "truncated": found.truncated,
-    }
-
-
-def _quantiles(found: "dict[float, Estimate]") -> list[dict[str, float]]:
-    return [{"probability": q, **asdict(estimate)} for q, estimate in found.items()]
 
 
 def _importance(output: "Output", task: "UncertaintyStudy", indices: int | None, morris: int | None) -> dict[str, Any]:

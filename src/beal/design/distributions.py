@@ -91,6 +91,10 @@ class Distribution:
         """Value exceeded as often as not."""
         return float(self.law.ppf(0.5))
 
+    def times(self, factor: float) -> "Distribution":
+        """The distribution of a multiple."""
+        return Distribution(self.name, _Multiple(self.law, factor), self.truncate)
+
     def impossible(self, low: float, high: float) -> float:
         """Probability of values below or above what is possible."""
         return float(self.law.cdf(low) + self.law.sf(high))
@@ -100,6 +104,23 @@ class Distribution:
         if self.impossible(low, high) == 0:
             return self
         return Distribution(self.name, _Cut(self.law, low, high), self.truncate)
+
+
+@dataclass(frozen=True)
+class _Multiple:
+    """The distribution of a positive multiple."""
+
+    law: Any
+    factor: float
+
+    def ppf(self, probability: float | Array) -> Array:
+        return np.asarray(self.factor * self.law.ppf(probability))
+
+    def cdf(self, value: float) -> float:
+        return float(self.law.cdf(value / self.factor))
+
+    def sf(self, value: float) -> float:
+        return float(self.law.sf(value / self.factor))
 
 
 @dataclass(frozen=True)

@@ -172,11 +172,13 @@ class _Task:
         self.evaluations += 1
         try:
             vehicle = self.space.at(place)
-            limit = max(default_limit(vehicle), self.target or 0.0)
-            found = critical_events(vehicle, limit, self.formulation, self.modes)
+            for limit in (default_limit(vehicle), self.target or 0.0):
+                found = critical_events(vehicle, limit, self.formulation, self.modes) if limit else []
+                if events := [event for event in found if event.unstable > event.before and event.thrust > 0]:
+                    return events
         except (ModelError, ConvergenceError):
             return None
-        return [event for event in found if event.unstable > event.before and event.thrust > 0]
+        return []
 
     def overlooked(self, place: Array, to: float) -> Event | None:
         """Flutter before the first event of the list."""

@@ -33,6 +33,17 @@ class Variable:
     high: float
     spacing: Literal["linear", "log"] = "linear"
 
+    def value(self, share: float) -> float:
+        """What a share of the way from bound to bound comes to."""
+        if self.spacing == "log":
+            return float(self.low * (self.high / self.low) ** share)
+        return float(self.low + (self.high - self.low) * share)
+
+    def share(self, value: float) -> float:
+        """The share at a value."""
+        low, high, there = (math.log(x) if self.spacing == "log" else x for x in (self.low, self.high, value))
+        return (there - low) / (high - low)
+
 
 @dataclass(frozen=True)
 class LinearBound:
@@ -114,21 +125,11 @@ class DesignSpace:
 
     def values(self, shares: Sequence[float] | Array) -> dict[str, float]:
         """The variables there, by path."""
-        found = {}
-        for (path, one), share in zip(self.variables.items(), shares, strict=True):
-            log = one.spacing == "log"
-            value = one.low * (one.high / one.low) ** share if log else one.low + (one.high - one.low) * share
-            found[path] = float(value)
-        return found
+        return {path: one.value(share) for (path, one), share in zip(self.variables.items(), shares, strict=True)}
 
     def shares(self, values: Mapping[str, float]) -> Array:
         """The point of the unit cube with these values."""
-        found = []
-        for path, one in self.variables.items():
-            log = one.spacing == "log"
-            low, high, value = (math.log(x) if log else x for x in (one.low, one.high, values[path]))
-            found.append((value - low) / (high - low))
-        return np.clip(found, 0.0, 1.0)
+        return np.clip([one.share(values[path]) for path, one in self.variables.items()], 0.0, 1.0)
 
     def rows(self) -> tuple[Array, Array]:
         """A and b of all linear bounds as A shares <= b."""

@@ -2,6 +2,7 @@
 
 from beal.plot.control import control_locus, control_map
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
+from beal.plot.design import design_map
 from beal.plot.drawing import vehicle
 from beal.plot.flight import flight
 from beal.plot.histories import amplitude_map, amplitude_spectrum, envelope, response, trajectory
@@ -20,6 +21,7 @@ __all__ = [
     "control_locus",
     "control_map",
     "deflections",
+    "design_map",
     "envelope",
     "flight",
     "floquet_chart",

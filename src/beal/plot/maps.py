@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from beal.plot.refined import draw, regions
 from beal.plot.style import BLACK, axes, style
+from beal.study.lattice import spacing_of
 from beal.study.refined import RefinedMap
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ NARROW = 0.3  # share of the width below which a region's label stands upright
 SMALLEST_LABEL = 0.008  # share of the map below which a region carries no name
 NAMES = {  # non-dimensional, and in SI units
     "critical_thrust": ("critical thrust $P L^2/EI$", "critical thrust P (N)"),
+    "stage.split": ("place of the first joint $x/L$",) * 2,
     "joint[0].rotational_stiffness": ("rotational stiffness $k_r L/EI$", "rotational stiffness $k_r$ (N m/rad)"),
     "joint[0].shear_stiffness": ("shear stiffness $k_s L^3/EI$", "shear stiffness $k_s$ (N/m)"),
 }
@@ -44,8 +46,8 @@ def stability_map(
     Parameters
     ----------
     chart : Dataset or RefinedMap
-        From `beal.stability_map`, with two dimensions, both drawn logarithmically where they are positive; or from
-        `beal.refined_map`, drawn in the spacing in which it was refined.
+        From `beal.stability_map`, with two dimensions, or from `beal.refined_map`; drawn in the spacing of its axes,
+        linear or logarithmic.
     ax : Axes, optional
     levels : sequence of float, optional
         Thrusts at which the colour changes; by default it changes continuously.
@@ -70,16 +72,17 @@ def stability_map(
         mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
         _labels(ax, x, y, regions(grid))
         si = grid.attrs.get("units") == "SI"
-        ax.set_xlabel(_label(str(across), si))
-        ax.set_ylabel(_label(str(up), si))
+        ax.set_xlabel(axis_label(str(across), si))
+        ax.set_ylabel(axis_label(str(up), si))
         ax.set_xlim(x_edges[0], x_edges[-1])
         ax.set_ylim(y_edges[0], y_edges[-1])
         if colorbar:
-            ax.figure.colorbar(mesh, ax=ax, label=_label("critical_thrust", si))
+            ax.figure.colorbar(mesh, ax=ax, label=axis_label("critical_thrust", si))
         return ax
 
 
-def _label(name: str, si: bool) -> str:
+def axis_label(name: str, si: bool) -> str:
+    """Of a quantity, by its path, in SI units or non-dimensional."""
     return NAMES[name][si] if name in NAMES else name
 
 
@@ -90,9 +93,9 @@ def _cells(
     mesh = _colours(ax, x, y, np.asarray(chart.critical_thrust, dtype=float), levels)
     _hatching(ax, x, y, np.asarray(chart.kind) == DIVERGENCE)
     _borders(ax, x, y, regions(chart))
-    for edges, scale in ((x, ax.set_xscale), (y, ax.set_yscale)):
-        if (edges > 0).all():
-            scale("log")
+    across, up = chart.critical_thrust.dims
+    ax.set_xscale(spacing_of(np.asarray(chart[across])))
+    ax.set_yscale(spacing_of(np.asarray(chart[up])))
     return mesh
 
 
@@ -171,8 +174,8 @@ def _name(region: int) -> str:
 
 
 def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Borders between neighbouring values, in the logarithm where all are positive."""
-    log = bool((values > 0).all())
+    """Borders between neighbouring values, in the logarithm where that is how they are spaced."""
+    log = spacing_of(values) == "log"
     v = np.log(values) if log else values
     middle = (v[1:] + v[:-1]) / 2
     edges = np.concatenate([[v[0] - (middle[0] - v[0])], middle, [v[-1] + (v[-1] - middle[-1])]])

@@ -61,7 +61,8 @@ def draw(ax: "Axes", found: "RefinedMap", levels: Sequence[float] | None) -> Sca
     x, y = points.T
     triangles = Triangulation(x / np.ptp(x), y / np.ptp(y)).triangles
     parted = np.ptp(region[triangles], axis=1) > 0
-    jumps = ~parted & _at_jumps(found, points, triangles) & (_change(thrust[triangles]) > JUMP)
+    beside = np.isin(triangles, triangles[parted]).any(axis=1)  # where the thrust may fall steeply to the border
+    jumps = ~beside & _at_jumps(found, points, triangles) & (_change(thrust[triangles]) > JUMP)
     inside = ~parted & ~jumps & np.all(np.isfinite(thrust[triangles]), axis=1)
 
     colours = (

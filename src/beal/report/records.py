@@ -4,12 +4,17 @@ import math
 from dataclasses import asdict
 from typing import Any
 
+from beal.design.reliability import probability_of_instability, thrust_quantile
+from beal.design.sampling import Sample
 from beal.motion import PARTS, QUANTITIES, Response
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust
 from beal.stability.curve import ThrustCurve
 from beal.stability.spectrum import Spectrum
+from beal.study.store import KINDS
 from beal.vehicle.vehicle import Vehicle
+
+QUANTILES = (0.01, 0.05, 0.5, 0.95)
 
 
 def critical_record(vehicle: Vehicle, found: CriticalThrust) -> dict[str, Any]:
@@ -88,6 +93,35 @@ def modes_record(vehicle: Vehicle, found: Spectrum, error: Any, formulation: str
         "thrust": found.thrust,
         "formulation": formulation,
         "units": vehicle.units,
+    }
+
+
+def sample_record(found: Sample, thrust: float | None) -> dict[str, Any]:
+    """What ``beal uncertainty --json`` says of random vehicles.
+
+    Parameters
+    ----------
+    found : Sample
+    thrust : float or None
+        Whose probability of instability is told, in N.
+
+    Returns
+    -------
+    dict
+    """
+    kinds = {name: int((found.kind == n).sum()) for n, name in enumerate(KINDS)}
+    quantiles = {q: thrust_quantile(found, q) for q in QUANTILES}
+    return {
+        "samples": found.count,
+        "method": found.method,
+        "seed": found.seed,
+        "kind": kinds,
+        "failed": found.failed,
+        "searched_to": found.searched_to,
+        "truncated": found.truncated,
+        "thrust": thrust,
+        "quantiles": [{"probability": q, **asdict(estimate)} for q, estimate in quantiles.items()],
+        "probability_of_instability": None if thrust is None else asdict(probability_of_instability(found, thrust)),
     }
 
 

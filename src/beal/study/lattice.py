@@ -82,7 +82,7 @@ class Lattice:
     @cached_property
     def spacing(self) -> dict[str, Literal["linear", "log"]]:
         """Of each axis: logarithmic where its values are more evenly spaced in their logarithm."""
-        return {path: _spacing(np.array(values)) for path, values in self.axes.items()}
+        return {path: spacing_of(np.array(values)) for path, values in self.axes.items()}
 
     @cached_property
     def widest(self) -> NDArray[np.float64]:
@@ -182,7 +182,8 @@ def _keys(places: Integers) -> NDArray[np.bytes_]:
     return np.ascontiguousarray(places, dtype=">i8").view(f"S{8 * places.shape[1]}").ravel()
 
 
-def _spacing(values: NDArray[np.float64]) -> Literal["linear", "log"]:
+def spacing_of(values: NDArray[np.float64]) -> Literal["linear", "log"]:
+    """In which values are even, or nearer to it."""
     if not np.all((values > 0) & np.isfinite(values)) or len(values) < 2:
         return "linear"
     if len(values) == 2:
