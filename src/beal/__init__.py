@@ -31,6 +31,7 @@ if _typing.TYPE_CHECKING:
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
     from beal.design.gradient import CriticalGradient, critical_gradient
     from beal.design.indices import MorrisEffects, SobolIndices, morris_effects, sobol_indices, thrust_output
+    from beal.design.mdo import StabilityComponent
     from beal.design.optimise import Optimum, optimise
     from beal.design.ranges import AllowedInterval, AllowedRange, allowed_range
     from beal.design.reliability import Estimate, probability_of_instability, thrust_quantile
@@ -152,6 +153,7 @@ _HOMES = {
     "SignalThrust": "beal.motion",
     "SobolIndices": "beal.design.indices",
     "Spectrum": "beal.stability.spectrum",
+    "StabilityComponent": "beal.design.mdo",
     "Stage": "beal.vehicle.parts",
     "State": "beal.motion",
     "StateSpace": "beal.control",
@@ -269,6 +271,7 @@ __all__ = [
     "SignalThrust",
     "SobolIndices",
     "Spectrum",
+    "StabilityComponent",
     "Stage",
     "State",
     "StateSpace",

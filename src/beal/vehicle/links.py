@@ -19,6 +19,14 @@ class Link:
     factor: float = 1.0
     power: float = 1.0
 
+    def value(self, of: float) -> float:
+        """Its value while the other has one."""
+        return self.factor * of**self.power
+
+    def slope(self, of: float) -> float:
+        """Its derivative with respect to the other."""
+        return self.factor * self.power * of ** (self.power - 1)
+
 
 def with_links(values: Mapping[str, float], links: Mapping[str, Link]) -> dict[str, float]:
     """Values by path, and those of the quantities that follow them.
@@ -28,4 +36,4 @@ def with_links(values: Mapping[str, float], links: Mapping[str, Link]) -> dict[s
     >>> with_links({"stage[0].length": 2.0}, {"stage[1].length": Link("stage[0].length", factor=0.5)})
     {'stage[0].length': 2.0, 'stage[1].length': 1.0}
     """
-    return {**values, **{path: link.factor * values[link.of] ** link.power for path, link in links.items()}}
+    return {**values, **{path: link.value(values[link.of]) for path, link in links.items()}}
