@@ -14,7 +14,7 @@ STAGES = [0, 1]
 
 def test_stiffnesses_scale_the_critical_thrust_together():
     found = beal.sensitivity(catalog.tsto(0.6, 20.0, 100.0))
-    stiff = [each for each in found.parameters if "stiffness" in each.path and math.isfinite(each.value)]
+    stiff = [each for each in found.parameters if "stiffness" in each.path and 0 < each.value < math.inf]
     assert sum(each.elasticity for each in stiff) == pytest.approx(1.0, abs=1e-9)
     assert sum(each.frequency_elasticity for each in stiff) == pytest.approx(0.5, abs=1e-9)
 
@@ -47,6 +47,39 @@ def test_a_mass_at_the_tail_moves_forward_only():
     inside = [beal.sensitivity(with_mass(1.0 - d), [path])[path] for d in (2e-3, 1e-3)]
     assert at_tail.status == "differenced"
     assert at_tail.derivative == pytest.approx(2 * inside[1].derivative - inside[0].derivative, rel=1e-3)
+
+
+def test_the_least_foundation_under_a_free_vehicle_makes_the_critical_thrust_jump():
+    path = "stage[0].foundation_stiffness"
+    assert beal.sensitivity(catalog.tsto(0.6, 20.0, 100.0), [path])[path].status == "not differentiable"
+    assert beal.sensitivity(catalog.beck(), [path])[path].status == "one-sided"
+
+
+@pytest.mark.parametrize("formulation", ["corrected-ritz", "as-printed"])
+def test_a_ritz_formulation_is_differentiated_where_its_two_equal_stages_allow(formulation):
+    vehicle = catalog.tsto(0.6, 20.0, 100.0)
+    paths = ["joint[0].rotational_stiffness", "stage.split", "stage[0].mass_per_length"]
+    *allowed, mass = beal.sensitivity(vehicle, paths, formulation=formulation, modes=6).parameters
+    assert (mass.status, math.isnan(mass.derivative)) == ("not differentiable", True)
+    for each in allowed:
+        step = 1e-5 * each.value
+        high, low = (
+            beal.critical_thrust(with_values(vehicle, {each.path: each.value + d}), None, formulation, modes=6)
+            for d in (step, -step)
+        )
+        slope = (high.critical_thrust - low.critical_thrust) / (2 * step)
+        assert each.derivative == pytest.approx(slope, rel=1e-6), each.path
+
+
+def test_frequencies_have_derivatives_over_the_compliance_of_a_rigid_joint_and_over_a_first_damping():
+    path = "joint[0].rotational_stiffness"
+    rigid = catalog.tsto(0.6, math.inf, 5000.0)
+    near = beal.frequency_sensitivity(catalog.tsto(0.6, 1e6, 5000.0), 30.0, [path]).frequency_derivative
+    found = beal.frequency_sensitivity(rigid, 30.0, [path, "stage[0].internal_damping"])
+    np.testing.assert_allclose(found.frequency_derivative[0], -1e12 * near[0], rtol=1e-5)
+    small = with_values(rigid, {"stage[0].internal_damping": 1e-8})
+    damped = beal.frequency_sensitivity(small, 30.0, ["stage[0].internal_damping"])
+    np.testing.assert_allclose(found.growth_derivative[1], damped.growth_derivative[0], rtol=1e-6)
 
 
 def with_mass(station):

@@ -7,9 +7,9 @@ from typing import Literal
 
 import numpy as np
 
-from beal.design.derivatives import Array, Change, Problem, Quantity, change, differences
+from beal.design.derivatives import SHRUNK, STEP, Array, Change, Movable, Problem, changes, differences
 from beal.design.implicit import Follow, damped, undamped
-from beal.discretisation.build import Formulation, discretise
+from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
 from beal.stability.damped import with_rates
@@ -45,11 +45,12 @@ class Slopes:
     status: Status
 
 
-def builder(vehicle: Vehicle, formulation: Formulation) -> Callable[[Vehicle], Operators]:
+def builder(vehicle: Vehicle, formulation: Formulation, modes: int | None = None) -> Callable[[Vehicle], Operators]:
     """The discretisation that is differentiated, the same for all vehicles near this one."""
-    if formulation not in ("objective", "converged"):
-        raise ModelError(f"formulation: must be objective or converged, found {formulation!r}")
-    return partial(discretise, formulation=formulation, order=first_order(vehicle, "legendre") + FINER)
+    ritz = formulation in RITZ
+    return partial(
+        discretise, formulation=formulation, order=modes if ritz else first_order(vehicle, "legendre") + FINER
+    )
 
 
 def branch(operators: Operators, kind: Kind, thrust: float, omega: float) -> Branch:
@@ -71,29 +72,44 @@ def branch(operators: Operators, kind: Kind, thrust: float, omega: float) -> Bra
     return Branch(kind, point, problem, undamped(full, point, kind, neutral))
 
 
+def no_slopes(branches: Sequence[Branch]) -> Slopes:
+    """Of what has none."""
+    unknown = np.full((len(branches), 2), np.nan)
+    return Slopes(unknown, unknown, "not differentiable")
+
+
 def slopes(
-    quantity: Quantity, branches: Sequence[Branch], build: Callable[[Vehicle], Operators], here: Operators
+    quantity: Movable, branches: Sequence[Branch], build: Callable[[Vehicle], Operators], here: Operators
 ) -> Slopes:
     """How critical points move with a quantity."""
-    unknown = np.full((len(branches), 2), np.nan)
-    nothing = Slopes(unknown, unknown, "not differentiable")
+    nothing = no_slopes(branches)
     if here.C is None and _damps(quantity.path):
         return nothing
-    found = change(quantity, build, here)
-    if found is not None and _sets_adrift(found, here, branches):
-        return nothing
-    if found is not None:
+    for found in changes(quantity, build, here):
+        if _sets_adrift(found, here, branches):
+            return nothing
         fine, coarse = (
             np.array(rows)
             for rows in zip(*([each.follow(side) for side in found.of(each.problem)] for each in branches), strict=True)
         )
-        size = quantity.step * np.array([[each.point.thrust, np.sqrt(abs(each.point.W))] for each in branches])
-        if np.all(np.abs(fine - coarse) <= AGREED * (np.abs(fine) + np.abs(size) / quantity.step**2)):
+        size = np.array([[each.point.thrust, np.sqrt(abs(each.point.W))] for each in branches])
+        if np.all(np.abs(fine - coarse) <= AGREED * (np.abs(fine) + STEP / quantity.step * size)):
             return Slopes(fine, coarse, "one-sided" if found.one_sided else "exact")
     sides = differences(quantity, lambda vehicle: _again(build(vehicle), branches))
+    if sides is None and not any(_possible(quantity, build, sign) for sign in (-1, 1)):
+        return nothing
     if sides is None:
         raise ConvergenceError(f"{quantity.path}: the critical thrust is lost when it moves")
     return Slopes(*sides, "differenced")
+
+
+def _possible(quantity: Movable, build: Callable[[Vehicle], Operators], sign: int) -> bool:
+    """Whether it can move to a side: the Ritz formulations ask for two equal stages."""
+    try:
+        build(quantity.moved(sign * SHRUNK[-1] * quantity.step))
+    except ModelError:
+        return False
+    return True
 
 
 def _again(operators: Operators, branches: Sequence[Branch]) -> Array:

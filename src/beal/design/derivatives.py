@@ -7,9 +7,9 @@ is right as long as all matrices are differentiated in the same moving coordinat
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ STRETCH = 1.05  # ratio of a segment's lengths above which the stencil is too wi
 
 WITHOUT_EFFECT = ("sensor", "force", "control", "timeline", "thrust.nominal")
 
-Solve = Callable[[Vehicle], Array]
+Solve = Callable[[Vehicle], NDArray[Any]]
 Problem = Callable[[Operators], Pencil]
 
 
@@ -55,6 +55,25 @@ FORWARD = Stencil(
 BACKWARD = Stencil(
     tuple(-n for n in FORWARD.offsets), tuple(-w for w in FORWARD.weights), tuple(-w for w in FORWARD.coarse)
 )
+
+
+class Movable(Protocol):
+    """Something about a vehicle that can be changed: one of its quantities, or several that move together."""
+
+    @property
+    def path(self) -> str:
+        """Of the quantity, or of that which the others follow."""
+
+    @property
+    def value(self) -> float:
+        """Where it is."""
+
+    @property
+    def step(self) -> float:
+        """By which it is changed."""
+
+    def moved(self, distance: float) -> Vehicle:
+        """The vehicle with it changed."""
 
 
 @dataclass(frozen=True)
@@ -141,13 +160,13 @@ class Change:
         return fine, coarse
 
 
-def change(quantity: Quantity, build: Callable[[Vehicle], Operators], here: Operators) -> Change | None:
-    """The operators along a quantity, or None where the coordinates do not stay those of ``here``.
+def changes(quantity: Movable, build: Callable[[Vehicle], Operators], here: Operators) -> Iterator[Change]:
+    """The operators along a quantity, over shorter and shorter steps, where the coordinates stay those of ``here``.
 
-    That is so where a rigid joint becomes flexible, or a mass at an end gets a segment behind it.
+    They do not where a rigid joint becomes flexible, or a mass at an end gets a segment behind it.
     """
     if math.isinf(quantity.value):
-        return None
+        return
     for stencil in (CENTRAL, FORWARD, BACKWARD):
         for share in SHRUNK:
             step = share * quantity.step
@@ -156,11 +175,10 @@ def change(quantity: Quantity, build: Callable[[Vehicle], Operators], here: Oper
             except ModelError:
                 break  # beyond what is allowed: to the other side
             if all(_alike(here, other) for other in there):
-                return Change(there, stencil, step)
-    return None
+                yield Change(there, stencil, step)
 
 
-def differences(quantity: Quantity, solve: Solve) -> tuple[Array, Array] | None:
+def differences(quantity: Movable, solve: Solve) -> tuple[NDArray[Any], NDArray[Any]] | None:
     """One-sided derivatives of what ``solve`` finds, and by the formula of lower order; None where it finds nothing.
 
     Of the steps that are tried, and of both sides where both are allowed, those on which the formulas agree best.

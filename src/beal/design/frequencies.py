@@ -1,14 +1,14 @@
 """Derivatives of the elastic frequencies under a thrust with respect to every quantity of a vehicle."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
 
 from beal.design.branches import builder
-from beal.design.derivatives import Array, bare, change, quantities_of
+from beal.design.derivatives import Array, Movable, bare, changes, differences, quantities_of
 from beal.discretisation.build import Formulation
 from beal.discretisation.operators import Operators
 from beal.stability.pencil import ComplexArray, Pencil, pencil
@@ -33,8 +33,8 @@ class FrequencySensitivity:
     paths : tuple of str
     values : ndarray, shape (paths,)
     derivatives : ndarray, shape (paths, modes)
-        Of the roots, complex; nan where a quantity gives the vehicle a coordinate that it does not have here, such
-        as an infinite stiffness, and where two roots meet.
+        Of the roots, complex; with respect to 1/value where a value is infinite. They are nan where two roots meet, and
+        where the vehicle allows no change of the quantity.
     """
 
     thrust: float
@@ -125,20 +125,37 @@ def frequency_sensitivity(
             return pencil(each, everything)
 
         full = problem(operators)
-        found = spectrum(operators, thrust, count)
-        roots = 1j * np.sqrt(found.W.astype(complex)) if found.s is None else found.s.astype(complex)
-        roots = roots[np.argsort(np.abs(roots.imag), kind="stable")]
+        roots = _roots(operators, thrust, count)
         vectors = [_vectors(full, thrust, s) for s in roots]
         rows = []
         for quantity in quantities:
-            moves = change(quantity, lambda moved: discretised(flown(moved)), operators)
-            if moves is None or (full.C is None and moves.operators[-1].C is not None):
-                rows.append([complex(math.nan, math.nan)] * len(roots))
+            moves = next(changes(quantity, lambda moved: discretised(flown(moved)), operators), None)
+            if moves is None:
+                rows.append(_from_one_side(quantity, roots, lambda moved: discretised(flown(moved)), thrust))
             else:
-                rows.append(
-                    [_root(moves.of(problem)[0], thrust, s, *pair) for s, pair in zip(roots, vectors, strict=True)]
-                )
+                turned = moves.of(problem)[0]
+                rows.append(np.array([_root(turned, thrust, s, *pair) for s, pair in zip(roots, vectors, strict=True)]))
     return FrequencySensitivity(thrust, roots, names, values, np.array(rows).reshape(len(names), len(roots)))
+
+
+def _roots(operators: Operators, thrust: float, count: int) -> ComplexArray:
+    """In order of frequency."""
+    found = spectrum(operators, thrust, count)
+    roots = 1j * np.sqrt(found.W.astype(complex)) if found.s is None else found.s.astype(complex)
+    return roots[np.argsort(np.abs(roots.imag), kind="stable")]
+
+
+def _from_one_side(
+    quantity: Movable, roots: ComplexArray, build: Callable[[Vehicle], Operators], thrust: float
+) -> ComplexArray:
+    """Derivatives where the vehicle gets a coordinate that it does not have here."""
+
+    def nearest(vehicle: Vehicle) -> ComplexArray:
+        there = _roots(build(vehicle), thrust, len(roots))
+        return there[np.abs(there - roots[:, None]).argmin(axis=1)]
+
+    sides = differences(quantity, nearest)
+    return np.full(len(roots), complex(math.nan, math.nan)) if sides is None else sides[0]
 
 
 def _vectors(full: Pencil, thrust: float, s: complex) -> tuple[ComplexArray, ComplexArray]:

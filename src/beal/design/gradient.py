@@ -40,6 +40,7 @@ def critical_gradient(
     max_thrust: float | None = None,
     formulation: Formulation = "objective",
     critical: CriticalThrust | None = None,
+    modes: int | None = None,
 ) -> CriticalGradient:
     """The critical thrust and its gradient, without the look at rivals that `sensitivity` takes.
 
@@ -49,9 +50,11 @@ def critical_gradient(
     paths : sequence of str
     max_thrust : float, optional
         In N, as for `critical_thrust`.
-    formulation : {"objective", "converged"}
+    formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
     critical : CriticalThrust, optional
         The vehicle's, if it is known.
+    modes : int, optional
+        Number of modes of the last two.
 
     Returns
     -------
@@ -70,8 +73,8 @@ def critical_gradient(
     [20.0509536]
     """
     with one_thread():
-        found = differentiable(critical or critical_thrust(vehicle, max_thrust, formulation))
-        build = builder(vehicle, formulation)
+        found = differentiable(critical or critical_thrust(vehicle, max_thrust, formulation, modes=modes))
+        build = builder(vehicle, formulation, modes)
         operators = build(bare(vehicle))
         here = [branch(operators, *guess(found))]
         rows = [slopes(each, here, build, operators) for each in quantities_of(vehicle, paths)]

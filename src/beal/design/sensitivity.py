@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from beal.design.branches import Slopes, Status, branch, builder, slopes
-from beal.design.derivatives import bare, quantities_of
+from beal.design.branches import Flown, Slopes, Status, branch, builder, no_slopes, slopes
+from beal.design.derivatives import Quantity, bare, quantities_of
 from beal.discretisation.build import Formulation
-from beal.errors import ModelError
+from beal.errors import ConvergenceError, ModelError
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.double_root import CriticalPoint
@@ -20,6 +20,7 @@ from beal.vehicle.vehicle import Vehicle
 
 NEAR = 5e-2  # relative distance of another critical thrust within which it is told
 ROUNDING = 1e-9  # elasticity that counts as none
+LEAST, JUMP = 1e-3, 1e-2  # of the first step from zero, and the relative change of the thrust that no slope explains
 TIE = 1e-6  # below which two count as one
 
 
@@ -40,7 +41,8 @@ class Parameter:
     status : {"exact", "one-sided", "differenced", "not differentiable"}
         ``one-sided``: the quantity is at its bound. ``differenced``: from critical points on one side, since there the
         vehicle gets a coordinate or a segment that it does not have here. ``not differentiable``: the least damping
-        of an undamped vehicle makes its critical thrust jump, as does what sets a diverging vehicle adrift.
+        of an undamped vehicle makes its critical thrust jump, as do what sets a diverging vehicle adrift and what
+        begins to hold a free one; and a formulation of two equal stages allows no change of one.
     error : float
         How much a formula of lower order changes the derivative.
     compliance_derivative : float, optional
@@ -119,6 +121,7 @@ def sensitivity(
     formulation: Formulation = "objective",
     time: float | None = None,
     critical: CriticalThrust | None = None,
+    modes: int | None = None,
 ) -> Sensitivity:
     """Exact derivatives of the critical thrust and its frequency with respect to quantities of a vehicle.
 
@@ -136,11 +139,13 @@ def sensitivity(
         By default all that the vehicle has and that may have an effect.
     max_thrust : float, optional
         In N, as for `critical_thrust`.
-    formulation : {"objective", "converged"}
+    formulation : {"objective", "converged", "corrected-ritz", "as-printed"}
     time : float, optional
         In s: of the vehicle as it flies at a time of its timeline.
     critical : CriticalThrust, optional
         The vehicle's, if it is known.
+    modes : int, optional
+        Number of modes of the last two formulations.
 
     Returns
     -------
@@ -169,14 +174,18 @@ def sensitivity(
     quantities = quantities_of(vehicle, paths)
     flown = partial(_flown, time=time)
     now = flown(bare(vehicle))
-    discretised = builder(now, formulation)
+    discretised = builder(now, formulation, modes)
     with one_thread():
-        found = differentiable(critical or critical_thrust(now, max_thrust, formulation))
-        rivals = _rivals(now, found, formulation)
+        found = differentiable(critical or critical_thrust(now, max_thrust, formulation, modes=modes))
+        rivals = _rivals(now, found, formulation, modes)
         operators = discretised(now)
         first, *others = (branch(operators, *each) for each in [guess(found), *map(guess, rivals)])
+        branches = (first, *others)
         rows = [
-            slopes(each, (first, *others), lambda moved: discretised(flown(moved)), operators) for each in quantities
+            no_slopes(branches)
+            if each.value == 0 and _jumps(each, flown, found, formulation, modes)
+            else slopes(each, branches, lambda moved: discretised(flown(moved)), operators)
+            for each in quantities
         ]
     told = tuple(
         Rival(event, event.thrust / first.point.thrust - 1, tuple(float(row.fine[n, 0]) for row in rows))
@@ -210,10 +219,24 @@ def _flown(vehicle: Vehicle, time: float | None) -> Vehicle:
     return vehicle if time is None else vehicle_at(vehicle, time)
 
 
-def _rivals(vehicle: Vehicle, found: CriticalThrust, formulation: Formulation) -> list[Event]:
+def _jumps(
+    quantity: Quantity, flown: Flown, found: CriticalThrust, formulation: Formulation, modes: int | None
+) -> bool:
+    """Whether the least of a quantity lets another instability come first, as a foundation does that holds nothing."""
+    try:
+        moved = flown(quantity.moved(LEAST * quantity.step))
+        there = critical_thrust(moved, None, formulation, modes=modes, tolerance=JUMP)
+    except (ModelError, ConvergenceError):
+        return False
+    there = there.elastic or there
+    here = found.critical_thrust or 0.0
+    return there.critical_thrust is None or abs(there.critical_thrust - here) > JUMP * here
+
+
+def _rivals(vehicle: Vehicle, found: CriticalThrust, formulation: Formulation, modes: int | None) -> list[Event]:
     """The changes of stability next above a critical thrust."""
     thrust = found.critical_thrust or 0.0
-    events = critical_events(vehicle, (1 + NEAR) * thrust, formulation)
+    events = critical_events(vehicle, (1 + NEAR) * thrust, formulation, modes)
     others = [event for event in events if event.thrust >= thrust * (1 - TIE)]
     same = min(others, key=lambda event: (abs(event.thrust - thrust), event.kind != found.kind), default=None)
     return [event for event in others if event is not same]
@@ -223,7 +246,7 @@ def _parameter(path: str, value: float, row: Slopes, point: CriticalPoint, tied:
     """The first branch's derivatives as those of a parameter; of the smallest of all that tie, one to each side."""
     slope, frequency = map(float, row.fine[0])
     compliance = slope if math.isinf(value) else None
-    if math.isinf(value):
+    if math.isfinite(compliance or math.nan):
         slope = frequency = 0.0
     omega = math.sqrt(max(point.W, 0.0))
     all_slopes = [slope, *(0.0 if math.isinf(value) else float(row.fine[n, 0]) for n in tied)]
