@@ -82,6 +82,35 @@ def test_frequencies_have_derivatives_over_the_compliance_of_a_rigid_joint_and_o
     np.testing.assert_allclose(found.growth_derivative[1], damped.growth_derivative[0], rtol=1e-6)
 
 
+def strut(foundation):
+    """Buckles with one half wave at pi^2 EI + k/pi^2 and with two at 4 pi^2 EI + k/(4 pi^2), equal at k = 4 pi^4."""
+    stage = beal.Stage(length=1.0, mass_per_length=1.0, bending_stiffness=1.0, foundation_stiffness=foundation)
+    return beal.Vehicle(stages=[stage], support=beal.Support(nose="pinned", tail="pinned"), units="nondimensional")
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-9, -1e-9, 1e-8, 3e-7, -3e-7])
+def test_a_tie_has_the_derivative_of_one_instability_below_and_of_the_other_above(off):
+    paths = ["stage[0].foundation_stiffness", "stage[0].bending_stiffness"]
+    found = beal.sensitivity(strut(4 * math.pi**4 * (1 + off)), paths)
+    assert found.status == "tie"
+    foundation, bending = found.parameters
+    assert (foundation.below, foundation.above) == (
+        pytest.approx(1 / math.pi**2, rel=1e-8),
+        pytest.approx(0.25 / math.pi**2, rel=1e-8),
+    )
+    assert (bending.below, bending.above) == (
+        pytest.approx(4 * math.pi**2, rel=1e-8),
+        pytest.approx(math.pi**2, rel=1e-8),
+    )
+
+
+@pytest.mark.parametrize("off", [1e-2, 1e-4, 1e-5, 1e-6, -1e-5, -1e-3])
+def test_of_two_divergences_that_all_but_tie_the_lower_one_is_critical(off):
+    foundation = 4 * math.pi**4 * (1 + off)
+    lower = min(math.pi**2 + foundation / math.pi**2, 4 * math.pi**2 + foundation / (4 * math.pi**2))
+    assert beal.critical_thrust(strut(foundation)).critical_thrust == pytest.approx(lower, rel=1e-12)
+
+
 def with_mass(station):
     return catalog.beck().model_copy(update={"point_masses": (beal.PointMass(station=station, mass=0.5),)})
 

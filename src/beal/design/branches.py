@@ -1,14 +1,14 @@
 """Critical points of one discretisation of a vehicle, and how they follow its quantities."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
 import numpy as np
 
 from beal.design.derivatives import SHRUNK, STEP, Array, Change, Movable, Problem, changes, differences
-from beal.design.implicit import Follow, damped, undamped
+from beal.design.implicit import Follow, damped, twins, undamped
 from beal.discretisation.build import RITZ, Formulation, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
@@ -70,6 +70,12 @@ def branch(operators: Operators, kind: Kind, thrust: float, omega: float) -> Bra
         return Branch(kind, point, lambda each: with_rates(pencil(each, kept)), undamped(with_rates(full), point, kind))
     neutral = kind == "divergence" and rigid_body_root(reduced(full), thrust) == "neutral"
     return Branch(kind, point, problem, undamped(full, point, kind, neutral))
+
+
+def tied(operators: Operators, one: Branch) -> list[Branch]:
+    """The two divergences where two zero roots meet, each with its own vector; else the branch alone."""
+    pair = twins(one.problem(operators), one.point.thrust) if one.kind == "divergence" else None
+    return [replace(one, follow=follow) for follow in pair or (one.follow,)]
 
 
 def no_slopes(branches: Sequence[Branch]) -> Slopes:

@@ -13,6 +13,7 @@ P and omega (Seyranian & Mailybaev 2003).
 """
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -24,6 +25,7 @@ from beal.stability.imaginary_root import damping_of
 from beal.stability.pencil import Array, Pencil
 
 Follow = Callable[[Pencil], Array]
+SEMISIMPLE = 1e-7  # ratio of the second smallest singular value to the next, below which there are two null vectors
 
 
 def undamped(pencil: Pencil, point: CriticalPoint, kind: str, neutral: bool = False) -> Follow:
@@ -62,6 +64,24 @@ def damped(pencil: Pencil, point: CriticalPoint) -> Follow:
         return np.linalg.solve(jacobian, [-g.real, -g.imag])
 
     return follow
+
+
+def twins(pencil: Pencil, thrust: float) -> tuple[Follow, Follow] | None:
+    """The two divergences of a zero root that is double with two vectors, the slower to grow first; None elsewhere.
+
+    Within the two null vectors X, and left ones Y, they move with the eigenvalues of -(Y^T K1 X)^-1 Y^T K' X.
+    """
+    u, sizes, vh = np.linalg.svd(pencil.stiffness(thrust))
+    if len(sizes) < 3 or sizes[-2] > SEMISIMPLE * sizes[-3]:
+        return None
+    left, right = u[:, -2:], vh[-2:].T
+    here = left.T @ pencil.K1 @ right
+
+    def follow(change: Pencil, which: int) -> Array:
+        moved = np.linalg.eigvals(np.linalg.solve(here, -left.T @ change.stiffness(thrust) @ right))
+        return np.array([np.sort(moved.real)[which], 0.0])
+
+    return partial(follow, which=0), partial(follow, which=1)
 
 
 class _Bordered:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from beal.design.branches import Flown, Slopes, Status, branch, builder, no_slopes, slopes
+from beal.design.branches import Flown, Slopes, Status, branch, builder, no_slopes, slopes, tied
 from beal.design.derivatives import Quantity, bare, quantities_of
 from beal.discretisation.build import Formulation
 from beal.errors import ConvergenceError, ModelError
@@ -93,7 +93,7 @@ class Sensitivity:
     parameters : tuple of Parameter
     status : {"smooth", "near a switch", "tie"}
         Whether another critical thrust is within 5 %, so that the derivatives hold for small changes only, or within
-        1e-6: then the smallest has a kink and each side its own derivative.
+        1e-6: then the smallest has a kink and each side its own derivative, `Parameter.below` and `Parameter.above`.
     rivals : tuple of Rival
     units : {"SI", "nondimensional"}
     """
@@ -179,8 +179,8 @@ def sensitivity(
         found = differentiable(critical or critical_thrust(now, max_thrust, formulation, modes=modes))
         rivals = _rivals(now, found, formulation, modes)
         operators = discretised(now)
-        first, *others = (branch(operators, *each) for each in [guess(found), *map(guess, rivals)])
-        branches = (first, *others)
+        same = tied(operators, branch(operators, *guess(found)))
+        branches = (*same, *(branch(operators, *guess(each)) for each in rivals))
         rows = [
             no_slopes(branches)
             if each.value == 0 and _jumps(each, flown, found, formulation, modes)
@@ -188,14 +188,19 @@ def sensitivity(
             for each in quantities
         ]
     told = tuple(
-        Rival(event, event.thrust / first.point.thrust - 1, tuple(float(row.fine[n, 0]) for row in rows))
-        for n, event in enumerate(rivals, start=1)
+        Rival(event, event.thrust / same[0].point.thrust - 1, tuple(float(row.fine[n, 0]) for row in rows))
+        for n, event in enumerate(rivals, start=len(same))
     )
-    tied = [n for n, each in enumerate(told, start=1) if each.distance < TIE and each.event.change == "destabilises"]
+    level = list(range(1, len(same)))
+    level += [
+        n for n, each in enumerate(told, start=len(same)) if each.distance < TIE and each.event.change == "destabilises"
+    ]
     parameters = tuple(
-        _parameter(each.path, each.value, row, first.point, tied) for each, row in zip(quantities, rows, strict=True)
+        _parameter(each.path, each.value, row, same[0].point, level) for each, row in zip(quantities, rows, strict=True)
     )
-    return Sensitivity(found, parameters, "tie" if tied else "near a switch" if told else "smooth", told, vehicle.units)
+    return Sensitivity(
+        found, parameters, "tie" if level else "near a switch" if told else "smooth", told, vehicle.units
+    )
 
 
 def guess(found: CriticalThrust | Event) -> tuple[Kind, float, float]:
@@ -242,14 +247,14 @@ def _rivals(vehicle: Vehicle, found: CriticalThrust, formulation: Formulation, m
     return [event for event in others if event is not same]
 
 
-def _parameter(path: str, value: float, row: Slopes, point: CriticalPoint, tied: list[int]) -> Parameter:
+def _parameter(path: str, value: float, row: Slopes, point: CriticalPoint, level: list[int]) -> Parameter:
     """The first branch's derivatives as those of a parameter; of the smallest of all that tie, one to each side."""
     slope, frequency = map(float, row.fine[0])
     compliance = slope if math.isinf(value) else None
     if math.isfinite(compliance or math.nan):
         slope = frequency = 0.0
     omega = math.sqrt(max(point.W, 0.0))
-    all_slopes = [slope, *(0.0 if math.isinf(value) else float(row.fine[n, 0]) for n in tied)]
+    all_slopes = [slope, *(0.0 if math.isinf(value) else float(row.fine[n, 0]) for n in level)]
     finite = 0.0 if math.isinf(value) else value
     return Parameter(
         path,

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import NDArray
 
 from beal.errors import ConvergenceError
@@ -26,6 +27,7 @@ Kind = Literal["flutter", "divergence"]
 REAL = 1e-4  # relative imaginary part up to which rounding may split a pair of real roots that nearly meet
 SOFT = 4.0 ** np.arange(-6, 0)  # shares of the first coarse interval, for joints much softer than the stages
 NARROW = 1e-7  # share of the thrust searched below which an interval is not divided further
+BLIND = (1e-5, 1e-3)  # shares of a critical thrust within which rounding may hide a root that is all but zero
 
 
 @dataclass(frozen=True)
@@ -198,8 +200,10 @@ class Search:
         inside = left.thrust < point.thrust <= right.thrust
         if not (point.converged and inside):
             return None
+        if kind == "divergence" and not neutral:
+            point = self._lowest_divergence(point)
         # A root that meets a zero one, or is all but zero, is lost in rounding closer by.
-        for nearest in (1e-5, 1e-3) if kind == "divergence" else (1e-5,):
+        for nearest in BLIND if kind == "divergence" else BLIND[:1]:
             margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
             before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
             negative = after.roots[self._lowest].real < 0  # else the tumbling root has come back to zero
@@ -212,6 +216,13 @@ class Search:
         lowest = self._lowest + 1 - (0 if self._drift == "neutral" else self.pencil.rigid)
         modes = (lowest, lowest) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
         return Instability(point, kind, modes, _on_border(before, point))
+
+    def _lowest_divergence(self, point: CriticalPoint) -> CriticalPoint:
+        """The first of the divergences that all but tie with one: K(P) is linear in P, all its zeros are known."""
+        thrusts = scipy.linalg.eigvals(self.pencil.stiffness(point.thrust), -self.pencil.K1) + point.thrust
+        near = thrusts[np.abs(thrusts - point.thrust) < BLIND[-1] * point.thrust]
+        first = divergence(self.pencil, float(near.real.min())) if len(near) > 1 else point
+        return first if first.converged and 0 < first.thrust < point.thrust else point
 
 
 def meeting_pair(pencil: Pencil, thrust: float, W: float) -> tuple[int, int]:
