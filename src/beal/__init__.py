@@ -29,7 +29,7 @@ if _typing.TYPE_CHECKING:
     from beal.design.design_file import DesignStudy, load_design
     from beal.design.distributions import Distribution
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
-    from beal.design.gradient import CriticalGradient, critical_gradient
+    from beal.design.gradient import CriticalGradient, CriticalHessian, critical_gradient, critical_hessian
     from beal.design.indices import MorrisEffects, SobolIndices, morris_effects, sobol_indices, thrust_output
     from beal.design.mdo import StabilityComponent
     from beal.design.optimise import Optimum, optimise
@@ -110,6 +110,7 @@ _HOMES = {
     "ControlledThrust": "beal.control",
     "ConvergenceError": "beal.errors",
     "CriticalGradient": "beal.design.gradient",
+    "CriticalHessian": "beal.design.gradient",
     "CriticalThrust": "beal.stability.critical",
     "Damping": "beal.vehicle.parts",
     "DesignAnswer": "beal.design.answer",
@@ -178,6 +179,7 @@ _HOMES = {
     "controlled_thrust": "beal.control",
     "critical_events": "beal.stability.critical",
     "critical_gradient": "beal.design.gradient",
+    "critical_hessian": "beal.design.gradient",
     "critical_thrust": "beal.stability.critical",
     "design_answer": "beal.design.answer",
     "discretise": "beal.discretisation.build",
@@ -228,6 +230,7 @@ __all__ = [
     "ControlledThrust",
     "ConvergenceError",
     "CriticalGradient",
+    "CriticalHessian",
     "CriticalThrust",
     "Damping",
     "DesignAnswer",
@@ -296,6 +299,7 @@ __all__ = [
     "controlled_thrust",
     "critical_events",
     "critical_gradient",
+    "critical_hessian",
     "critical_thrust",
     "design_answer",
     "discretise",

@@ -111,6 +111,27 @@ def test_of_two_divergences_that_all_but_tie_the_lower_one_is_critical(off):
     assert beal.critical_thrust(strut(foundation)).critical_thrust == pytest.approx(lower, rel=1e-12)
 
 
+@pytest.mark.parametrize(("turning", "kind"), [(20.0, "flutter"), (5.0, "divergence")])
+def test_second_derivatives_obey_the_laws_of_scaling_and_follow_differences(turning, kind):
+    """A thrust of first degree in all stiffnesses has a gradient of degree 0: the Hessian times them is 0."""
+    vehicle = catalog.tsto(0.6, turning, 5e3)
+    springs = [f"joint[0].{name}_stiffness" for name in ("rotational", "shear")]
+    stiff = [*springs, *(f"stage[{n}].bending_stiffness" for n in STAGES)]
+    found = beal.critical_hessian(vehicle, stiff)
+    assert found.critical.kind == kind
+    values = np.array([turning, 5e3, 1.0, 1.0])
+    assert values @ found.gradient == pytest.approx(found.critical.critical_thrust, rel=1e-9)
+    np.testing.assert_allclose(values * (found.hessian @ values), 0.0, atol=1e-8 * found.critical.critical_thrust)
+    step = 1e-3 * turning
+    low, high = (beal.critical_gradient(catalog.tsto(0.6, turning + d, 5e3), stiff).thrust for d in (-step, step))
+    np.testing.assert_allclose(found.hessian[0], (high - low) / (2 * step), rtol=1e-4)
+
+
+def test_a_quantity_at_its_bound_has_no_second_derivative():
+    with pytest.raises(beal.ModelError, match="foundation_stiffness: has no second derivative"):
+        beal.critical_hessian(catalog.beck(), ["stage[0].foundation_stiffness"])
+
+
 def with_mass(station):
     return catalog.beck().model_copy(update={"point_masses": (beal.PointMass(station=station, mass=0.5),)})
 

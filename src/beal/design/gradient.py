@@ -1,4 +1,4 @@
-"""The critical thrust with its gradient over chosen quantities, as optimisers ask for it."""
+"""The critical thrust with its gradient and curvature over chosen quantities, as optimisers ask for them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from beal.design.branches import Status, branch, builder, slopes
-from beal.design.derivatives import Array, bare, quantities_of
+from beal.design.derivatives import CENTRAL, Array, bare, quantities_of
 from beal.design.sensitivity import differentiable, guess
 from beal.discretisation.build import Formulation
+from beal.errors import ModelError
 from beal.stability.critical import CriticalThrust, critical_thrust
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
@@ -80,3 +81,87 @@ def critical_gradient(
         rows = [slopes(each, here, build, operators) for each in quantities_of(vehicle, paths)]
     fine = np.array([row.fine[0] for row in rows]).reshape(-1, 2)
     return CriticalGradient(found, fine[:, 0], fine[:, 1], tuple(row.status for row in rows))
+
+
+@dataclass(frozen=True)
+class CriticalHessian:
+    """A critical thrust and its first and second derivatives with respect to some quantities.
+
+    Parameters
+    ----------
+    critical : CriticalThrust
+    gradient : ndarray, shape (paths,)
+    hessian : ndarray, shape (paths, paths)
+        Symmetric.
+    error : float
+        The largest change of an entry, in units of thrust over the two values, by a formula of lower order or by
+        taking the two derivatives in the other order.
+    """
+
+    critical: CriticalThrust
+    gradient: Array
+    hessian: Array
+    error: float
+
+
+def critical_hessian(
+    vehicle: Vehicle,
+    paths: Sequence[str],
+    max_thrust: float | None = None,
+    formulation: Formulation = "objective",
+    modes: int | None = None,
+) -> CriticalHessian:
+    """Second derivatives of the critical thrust: differences of sixth order of its exact gradients.
+
+    The instability is followed, not searched again. It costs as much as six gradients for each quantity.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    paths : sequence of str
+        Of quantities with finite values that can move to both sides.
+    max_thrust, formulation, modes
+        As for `critical_gradient`.
+
+    Returns
+    -------
+    CriticalHessian
+
+    Raises
+    ------
+    ModelError
+        If the vehicle has no such quantity, or it cannot move to both sides; or there is no critical thrust.
+    ConvergenceError
+        If the instability is lost on the way.
+
+    Examples
+    --------
+    >>> from beal.vehicle import catalog
+    >>> found = critical_hessian(catalog.beck(), ["stage[0].bending_stiffness", "stage[0].length"])
+    >>> (found.hessian / found.critical.critical_thrust).round(6).tolist()  # of EI/L^2
+    [[0.0, -2.0], [-2.0, 6.0]]
+    """
+    with one_thread():
+        found = differentiable(critical_thrust(vehicle, max_thrust, formulation, modes=modes))
+        build, point = builder(vehicle, formulation, modes), guess(found)
+
+        def gradient(moved: Vehicle) -> Array:
+            operators = build(moved)
+            here = [branch(operators, *point)]
+            return np.array([slopes(each, here, build, operators).fine[0, 0] for each in quantities_of(moved, paths)])
+
+        quantities = quantities_of(vehicle, paths)
+        rows = []
+        for each in quantities:
+            try:
+                around = [gradient(each.moved(offset * each.step)) for offset in CENTRAL.offsets]
+            except ModelError as error:
+                raise ModelError(
+                    [(each.path, f"has no second derivative, it moves to one side only: {error}")]
+                ) from None
+            rows.append([np.array(weights) @ around / each.step for weights in (CENTRAL.weights, CENTRAL.coarse)])
+        first = gradient(bare(vehicle))
+    fine, coarse = np.array(rows).reshape(-1, 2, len(quantities)).transpose(1, 0, 2)
+    size = np.array([each.value for each in quantities])
+    change = np.maximum(np.abs(fine - fine.T) / 2, np.abs(fine - coarse)) * np.outer(size, size)
+    return CriticalHessian(found, first, (fine + fine.T) / 2, float(change.max(initial=0.0)))
