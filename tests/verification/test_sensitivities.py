@@ -15,7 +15,7 @@ from beal.stability.pencil import pencil
 from beal.stability.refine import polish
 from beal.vehicle.paths import value_at, with_values
 from properties.vehicles import random_vehicles, with_random_damping
-from verification.transfer_matrix import TransferMatrix
+from verification.transfer_matrix import TransferMatrix, damped_flutter, divergence
 
 PER_VEHICLE = 2
 
@@ -105,3 +105,32 @@ def test_derivatives_follow_from_the_characteristic_function(path):
     thrust, omega = implicit(vehicle, path, critical.critical_thrust, critical.angular_frequency)
     assert found.thrust[0] == pytest.approx(thrust, rel=1e-6)
     assert found.angular_frequency[0] == pytest.approx(omega, rel=1e-6)
+
+
+HELD = with_values(
+    catalog.tsto(0.6, 20.0, 5e3).model_copy(update={"support": beal.Support(nose="clamped")}), {"thrust.tangency": 0.3}
+)
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "solve"),
+    [
+        pytest.param(HELD, lambda v, P, omega: divergence(v, P), id="divergence"),
+        pytest.param(
+            with_values(catalog.tsto(0.6, 20.0, 100.0), {"stage[0].internal_damping": 0.01}),
+            lambda v, P, omega: damped_flutter(v, P, omega)[0],
+            id="damped",
+        ),
+    ],
+)
+@pytest.mark.parametrize("path", ["stage.split", "joint[0].rotational_stiffness"])
+def test_derivatives_are_those_of_critical_thrusts_by_transfer_matrices(vehicle, solve, path):
+    found = beal.critical_gradient(vehicle, [path])
+    critical, value = found.critical, value_at(vehicle, path)
+    step = 3e-3 * value
+    around = [
+        solve(with_values(vehicle, {path: value + n * step}), critical.critical_thrust, critical.angular_frequency)
+        for n in (-3, -2, -1, 1, 2, 3)
+    ]
+    slope = np.array([-1, 9, -45, 45, -9, 1]) / 60 @ around / step
+    assert found.thrust[0] == pytest.approx(slope, rel=1e-6)
