@@ -14,6 +14,7 @@ ComplexArray = NDArray[np.complex128]
 
 MODES = 10  # kept
 CORRECTED, TWICE_CORRECTED = 4, 2  # lowest ones whose change under thrust is added; twice
+MISPLACED = 1e-6  # relative error of a root of a reduced pencil from which its vectors are added
 LIGHT = 1e-13  # share of the largest inertia below which a coordinate only follows; stiff joints' are all rounding
 UNCOUPLED = 1e-11  # a rigid-body motion that drives the elastic coordinates less than this drives them not at all
 
@@ -132,8 +133,8 @@ def corrections(vehicle: Vehicle, watched: int) -> int:
     return watched if vehicle.shears else CORRECTED
 
 
-def reduced(full: Pencil, modes: int = MODES, corrected: int = CORRECTED) -> Pencil:
-    """The pencil in its lowest modes and the changes of the lowest few, ``corrected``, under thrust.
+def reduced(full: Pencil, modes: int = MODES, corrected: int = CORRECTED, beside: Array | None = None) -> Pencil:
+    """The pencil in its lowest modes, the changes of the lowest few, ``corrected``, under thrust, and vectors beside.
 
     Modes of the unloaded vehicle converge slowly where thrust acts on a joint; with K^-1 K1 v and K^-1 K1^T v of the
     lowest modes v beside them, sixteen vectors do what hundreds of modes do.
@@ -151,10 +152,33 @@ def reduced(full: Pencil, modes: int = MODES, corrected: int = CORRECTED) -> Pen
     low = vectors[:, : full.rigid + corrected]
     first = [scipy.linalg.cho_solve(factor, K1 @ low) for K1 in sides]
     second = [scipy.linalg.cho_solve(factor, K1 @ w[:, :TWICE_CORRECTED]) for K1, w in zip(sides, first, strict=True)]
-    span = np.hstack((vectors[:, :modes], *first, *second))
+    span = np.hstack((vectors[:, :modes], *first, *second, *(() if beside is None else (beside,))))
     upper = scipy.linalg.cholesky(static)
     span = upper @ span
     size = np.linalg.norm(span, axis=0)
     left, singular, _ = np.linalg.svd(span[:, size > 0] / size[size > 0], full_matrices=False)
     independent = left[:, singular > 1e-8 * singular[0]]
     return full.projected(scipy.linalg.solve_triangular(upper, independent))
+
+
+def misplaced(full: Pencil, small: Pencil, thrust: float, count: int) -> Array | None:
+    """Right and left vectors of the lowest roots under a thrust that a reduced pencil has not in their places.
+
+    Two roots that only just meet, or only just do not, need their places to a small part of their distance.
+    """
+    full = _without_followers(full)
+    if len(small.M) >= len(full.M):
+        return None
+    shifted = full.stiffness(thrust) + full.shift * full.M
+    feeds = np.linalg.solve(shifted, full.M)
+    found, lowest = small.roots(thrust)[:count], slice(None, 2 * count)
+    inverse = np.linalg.eigvals(feeds).astype(complex)
+    roots = 1 / inverse[np.argsort(-np.abs(inverse))][lowest] - full.shift
+    off = np.abs(roots - found[:, None]).min(axis=1) > MISPLACED * (np.abs(found) + full.shift)
+    if not off.any():
+        return None
+    inverse, left, right = scipy.linalg.eig(feeds, left=True)
+    roots = 1 / inverse - full.shift
+    places = np.unique(np.abs(roots - found[off, None]).argmin(axis=1))
+    vectors = np.hstack((right[:, places], np.linalg.solve(shifted.T, left[:, places].conj())))
+    return np.hstack((vectors.real, vectors.imag))

@@ -20,6 +20,7 @@ LAST_ORDER = {"legendre": 26, "hermite": 64}
 TOLERANCE = {"legendre": 1e-10, "hermite": 1e-6}
 SHEARED_TOLERANCE = 1e-9  # modes of shear and of bending may be coupled so weakly that rounding leaves more
 MODAL_TOLERANCE = 1e-8  # where damping ratios reach up to modes that no discretisation resolves
+LEAST_TOLERANCE = 1e-7  # relative error that is told, not refused, where none was asked for
 FALLING = 0.3  # ratio of successive corrections below which they count as a geometric sequence
 STEADY = 1e-2  # ratio that the next correction is not trusted to fall below: one of 1/1000 was followed by one of 1/170
 SAMPLED = 3  # times the larger of two differences that are rounding, which the error may well be
@@ -53,8 +54,14 @@ def settled(found: Instability, full: Pencil) -> tuple[CriticalPoint, float]:
     return point, point.uncertainty
 
 
-def refined(found: Instability, points: Iterable[CriticalPoint], tolerance: float) -> tuple[CriticalPoint, float]:
-    """The first of ever finer discretisations' critical points whose own error estimate meets the tolerance."""
+def refined(
+    found: Instability, points: Iterable[CriticalPoint], tolerance: float, least: float = 0.0
+) -> tuple[CriticalPoint, float]:
+    """The first of ever finer discretisations' critical points whose own error estimate meets the tolerance.
+
+    The finest one will do with a larger error, the least accuracy that is needed: modes that are coupled so weakly that
+    they only just meet leave the thrust at which they do to rounding.
+    """
     if found.point.thrust == 0.0:
         return found.point, 0.0
     thrusts: list[float] = []
@@ -67,6 +74,8 @@ def refined(found: Instability, points: Iterable[CriticalPoint], tolerance: floa
         error = _remaining(before, last, point.uncertainty) + point.uncertainty
         if error <= tolerance * point.thrust:
             return point, error
+    if error <= least * point.thrust:
+        return point, error
     raise ConvergenceError(
         f"critical thrust {point.thrust:.9g}: relative error {error / point.thrust:.1e} with the finest "
         f"discretisation, {tolerance:.1e} was asked for; ask for less"
