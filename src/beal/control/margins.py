@@ -9,6 +9,7 @@ lightly damped mode.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.linalg import block_diag, eigvals
@@ -17,6 +18,7 @@ from beal.control.compensator import Array
 from beal.control.loop import Loop
 from beal.control.opened import broken, opened
 from beal.discretisation import Operators
+from beal.shown import Shown
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
@@ -74,7 +76,7 @@ class PhaseMargin:
 
 
 @dataclass(frozen=True)
-class Margins:
+class Margins(Shown):
     """Where the loop of a vehicle, broken at the actuator, meets -1.
 
     Parameters
@@ -84,11 +86,13 @@ class Margins:
     gain : tuple of GainMargin
     phase : tuple of PhaseMargin
         In order of frequency, as many as there are.
+    units : {"SI", "nondimensional"}
     """
 
     thrust: float
     gain: tuple[GainMargin, ...]
     phase: tuple[PhaseMargin, ...]
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def smallest_gain(self) -> GainMargin | None:
@@ -136,8 +140,9 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
     """
     with one_thread():
         small, thrust = broken(model, thrust, modes)
+        units = small.operators.vehicle.units
         if small.static or not thrust:
-            return Margins(thrust, (), ())
+            return Margins(thrust, (), (), units)
         A, B, C, D = opened(small, thrust)
         frequencies, top = _frequencies(small, thrust, modes)
 
@@ -151,7 +156,7 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
         met = [(omega, L(omega)) for omega in _settled(lambda w: abs(L(w)) - 1, unit, top)]
     gain = [GainMargin(-1 / value, omega, _nearest(frequencies, omega)) for omega, value in crossed if value < -LEAST]
     phase = [PhaseMargin(math.degrees(np.angle(-value)), omega, _nearest(frequencies, omega)) for omega, value in met]
-    return Margins(thrust, tuple(gain), tuple(phase))
+    return Margins(thrust, tuple(gain), tuple(phase), units)
 
 
 def _frequencies(closed: Loop, thrust: float, modes: int) -> tuple[Array, float]:

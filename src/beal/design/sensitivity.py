@@ -10,6 +10,7 @@ from beal.design.branches import Slopes, Status, branch, builder, slopes
 from beal.design.derivatives import bare, quantities_of
 from beal.discretisation.build import Formulation
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.double_root import CriticalPoint
@@ -81,7 +82,7 @@ class Rival:
 
 
 @dataclass(frozen=True)
-class Sensitivity:
+class Sensitivity(Shown):
     """Derivatives of a critical thrust.
 
     Parameters
