@@ -18,7 +18,7 @@ function slider(quantity, moved) {
     tell(value);
     moved(quantity.path, value);
   });
-  row.append(name, shown, input);
+  row.append(name, input, shown);
   return row;
 }
 
