@@ -155,7 +155,7 @@ def sensitivity(
     Notes
     -----
     The critical thrust is the smallest of many. Where another instability overtakes it, it has a kink; where a pair of
-    modes begins or ceases to meet, it jumps. `Sensitivity.status` tells what is close above; an instability that a
+    modes begins or ceases to meet, it jumps. The attribute ``status`` tells what is close above; an instability that a
     change of the vehicle would newly bring about, below, is not seen.
 
     Source: Seyranian & Mailybaev (2003), Multiparameter stability theory with mechanical applications.

@@ -28,7 +28,7 @@ def explore(vehicle: Vehicle, paths: Sequence[str] | None = None) -> "Explorer":
     Returns
     -------
     Explorer
-        For the end of a cell. Its attribute `vehicle` is the vehicle as it is now. Everything is computed in the
+        For the end of a cell. Its attribute ``vehicle`` is the vehicle as it is now. Everything is computed in the
         notebook's own Python; nothing is asked of a server or of a network.
 
     Raises
