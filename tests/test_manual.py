@@ -17,7 +17,7 @@ import beal
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
-PAGES = ("first_ten_minutes", "index", "limits", "moving", "scaling", "theory", "tutorial")
+PAGES = ("commands", "first_ten_minutes", "index", "limits", "moving", "scaling", "theory", "tutorial")
 BEAL = str(Path(sys.executable).with_name("beal"))
 
 
