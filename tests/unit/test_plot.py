@@ -130,12 +130,12 @@ def test_a_response_is_drawn_as_computed(ax, quantity):
     np.testing.assert_array_equal(ax.lines[-1].get_ydata(), getattr(moved, quantity)[0])
 
 
-def test_a_motion_that_turns_once_or_twice_has_an_envelope_that_is_seen(ax):
-    moved = solve(catalog.tsto(0.6, 5000.0, 5000.0), 0.5, 50.0, initial=ModeShape(1, 1e-3))
-    plot.envelope(moved, ax)
+@pytest.mark.parametrize(("duration", "points", "words"), [(0.5, 1, []), (0.1, 0, ["turns less than twice"])])
+def test_an_envelope_of_few_points_is_seen(ax, duration, points, words):
+    vehicle = catalog.tsto(0.6, 5000.0, 5000.0)
+    plot.envelope(solve(vehicle, duration, 50.0, initial=ModeShape(1, 1e-3), rigid_body=False), ax)
     (line,) = ax.lines
-    assert 0 < len(line.get_xdata()) <= 3
-    assert line.get_marker() == "o"
+    assert (len(line.get_xdata()), line.get_marker(), labels(ax)) == (points, "o", words)
 
 
 def test_a_trajectory_marks_where_it_starts(ax):
