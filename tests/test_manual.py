@@ -111,3 +111,4 @@ def test_a_build_that_would_load_from_a_network_fails(offline, tmp_path):
 
 def test_the_version_to_cite_is_this_one():
     assert f"version {beal.__version__}." in (DOCS / "limits.md").read_text(encoding="utf-8")
+    assert f"\nversion: {beal.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
