@@ -23,6 +23,7 @@ from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
 LEAST = 1e-8  # of |L| where a gain margin is told; below, L vanishes
+REAL = 1e-6  # |Im L| beside |L| of a zero of Im L; at an undamped mode, a pole, the secant method ends too
 AXIS = 1e-3  # |Re s| beside |s| of a zero that may lie on the axis; the secant method decides
 RIGID = 1e-3  # frequency of a rigid-body motion, beside the reference frequency
 STEPS, CLOSE, APART = 30, 1e-13, 1e-6  # of the secant method, and relative distance below which two are one
@@ -152,9 +153,13 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
         both, series = block_diag(A, -A), np.block([[A, -B @ C], [np.zeros_like(A), -A]])
         real = _zeros(both, np.vstack((B, B)), np.hstack((C, C)), 0.0)
         unit = _zeros(series, np.vstack((D * B, B)), np.hstack((C, -D * C)), D**2 - 1)
-        crossed = [(omega, L(omega).real) for omega in _settled(lambda w: L(w).imag, real, top)]
+        crossed = [(omega, L(omega)) for omega in _settled(lambda w: L(w).imag, real, top)]
         met = [(omega, L(omega)) for omega in _settled(lambda w: abs(L(w)) - 1, unit, top)]
-    gain = [GainMargin(-1 / value, omega, _nearest(frequencies, omega)) for omega, value in crossed if value < -LEAST]
+    gain = [
+        GainMargin(-1 / value.real, omega, _nearest(frequencies, omega))
+        for omega, value in crossed
+        if value.real < -LEAST and abs(value.imag) < REAL * abs(value)
+    ]
     phase = [PhaseMargin(math.degrees(np.angle(-value)), omega, _nearest(frequencies, omega)) for omega, value in met]
     return Margins(thrust, tuple(gain), tuple(phase), units)
 
