@@ -51,7 +51,7 @@ $(STAMP): pyproject.toml constraints.txt
 	  { echo "beal needs Python 3.11 or later, found $$($(PYTHON) --version 2>&1): make PYTHON=/path/to/python" >&2; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 	  { echo "$(PYTHON) cannot make virtual environments: install its venv module (Debian: python3-venv)" >&2; exit 1; }
-	@echo "Installing into $(VENV), once"
+	@echo "Installing into $(VENV), once, which takes a minute or more"
 	@$(PYTHON) -m venv $(VENV)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 	@touch $@

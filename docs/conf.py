@@ -18,6 +18,9 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 html_math_renderer = "mathml"
 
+default_role = "py:obj"  # what docstrings set in backquotes is a link
+nitpicky = True
+
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 numpydoc_show_class_members = False

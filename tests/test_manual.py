@@ -17,7 +17,7 @@ import beal
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
-PAGES = ("index", "limits", "moving", "scaling", "theory", "tutorial")
+PAGES = ("commands", "first_ten_minutes", "index", "limits", "moving", "scaling", "theory", "tutorial")
 BEAL = str(Path(sys.executable).with_name("beal"))
 
 
@@ -50,7 +50,7 @@ def test_the_blocks_of_a_page_do_what_it_says(page, tmp_path):
     printed = None
     for language, block in blocks(page):
         first, _, rest = block.partition("\n")
-        if language == "toml":
+        if language in ("toml", "csv"):
             (tmp_path / first.removeprefix("# ")).write_text(block, encoding="utf-8")
         elif language == "console":
             command = shlex.split(first.removeprefix("$ "))
@@ -111,3 +111,4 @@ def test_a_build_that_would_load_from_a_network_fails(offline, tmp_path):
 
 def test_the_version_to_cite_is_this_one():
     assert f"version {beal.__version__}." in (DOCS / "limits.md").read_text(encoding="utf-8")
+    assert f"\nversion: {beal.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")

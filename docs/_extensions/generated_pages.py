@@ -3,9 +3,11 @@
 import importlib
 import inspect
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 from itertools import groupby
 from pathlib import Path
 
@@ -23,29 +25,48 @@ PLACES = {
 
 def write_gallery(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    for script in sorted((ROOT / "examples").glob("*.py")):
-        page = folder / f"{script.stem}.md"
-        if not page.exists() or page.stat().st_mtime < script.stat().st_mtime:
-            page.write_text(executed(script, folder), encoding="utf-8")
-    names = sorted(page.stem for page in folder.glob("*.md"))
-    text = "# Gallery\n\nThe scripts of the folder `examples`, with what they print and draw.\n\n"
-    folder.with_suffix(".md").write_text(text + toctree([f"gallery/{name}" for name in names]), encoding="utf-8")
+    text = "# Gallery\n\nThe scripts, models and studies of the folder `examples`, with what they print and draw.\n\n"
+    examples = [path for path in sorted((ROOT / "examples").iterdir()) if path.suffix in SHOWN]
+    for example in examples:
+        page, picture = (folder / f"{example.stem}.{ending}" for ending in ("md", "png"))
+        if not page.exists() or page.stat().st_mtime < example.stat().st_mtime:
+            page.write_text(SHOWN[example.suffix](example, picture), encoding="utf-8")
+        title = page.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+        text += f"## [{title}](gallery/{page.name})\n\n![{title}](gallery/{picture.name})\n\n"
+    contents = toctree([f"gallery/{example.stem}" for example in examples], hidden=True)
+    folder.with_suffix(".md").write_text(text + contents, encoding="utf-8")
 
 
-def executed(script: Path, folder: Path) -> str:
-    """The page of an example: what it says of itself, its picture, its code and what it printed."""
+def executed(script: Path, picture: Path) -> str:
+    """The page of a script: what it says of itself, its picture, its code and what it printed."""
     source = script.read_text(encoding="utf-8")
     _, words, code = source.split('"""', 2)
     title, _, rest = words.partition("\n")
-    picture = folder / f"{script.stem}.png"
-    arguments = [str(picture)] if "sys.argv" in code else []
     with tempfile.TemporaryDirectory() as place:
-        run = [sys.executable, str(script), *arguments]
+        run = [sys.executable, str(script), str(picture)]
         printed = subprocess.run(run, cwd=place, check=True, capture_output=True, text=True).stdout
     parts = [f"# {title.rstrip('.')}", rest.strip()]
-    parts += [f"![What the script draws]({picture.name})"] if picture.exists() else []
+    parts.append(f"![What the script draws]({picture.name})")
     parts += [f"```python\n{code.strip()}\n```", "It prints", f"```text\n{printed.rstrip()}\n```"]
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def answered(file: Path, picture: Path) -> str:
+    """The page of a model or of a study: its text, and what the command about it prints and draws."""
+    text = file.read_text(encoding="utf-8")
+    command = ["map", file.name, "-o", f"{file.stem}.zarr"] if "[grid]" in text else ["critical", file.name]
+    with tempfile.TemporaryDirectory() as place:
+        shutil.copytree(file.parent, place, dirs_exist_ok=True)
+        run = [str(Path(sys.executable).with_name("beal")), *command, "--figure", str(picture)]
+        printed = subprocess.run(run, cwd=place, check=True, capture_output=True, text=True).stdout
+    title = tomllib.loads(text).get("title", file.stem.replace("_", " "))
+    line = " ".join(["$ beal", *command, "--figure", picture.name])
+    parts = [f"# {title[0].upper()}{title[1:]}", f"![What the command draws]({picture.name})"]
+    parts += [f"`{file.name}`", f"```toml\n{text.strip()}\n```", f"```console\n{line}\n{printed.rstrip()}\n```"]
+    return "\n\n".join(parts) + "\n"
+
+
+SHOWN = {".py": executed, ".toml": answered}
 
 
 def write_reference(folder: Path) -> None:
@@ -90,8 +111,8 @@ def write_benchmarks(page: Path) -> None:
         target.write_text(text.replace("peers/README.md", "peers.md"), encoding="utf-8")
 
 
-def toctree(entries: list[str]) -> str:
-    return "\n".join(["```{toctree}", *entries, "```", ""])
+def toctree(entries: list[str], hidden: bool = False) -> str:
+    return "\n".join(["```{toctree}", *([":hidden:", ""] if hidden else []), *entries, "```", ""])
 
 
 def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:

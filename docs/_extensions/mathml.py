@@ -3,6 +3,7 @@
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
+from sphinx.errors import SphinxError
 
 PRIMES = {
     "''": "\N{DOUBLE PRIME}",
@@ -13,7 +14,10 @@ PRIMES = {
 def mathml(formula: str, display: str) -> str:
     for ascii_form, prime in PRIMES.items():
         formula = formula.replace(ascii_form, prime)
-    return convert(formula, display=display)
+    drawn: str = convert(formula, display=display)
+    if "\\" in drawn:
+        raise SphinxError(f"a formula with a command that would be printed as it is: {formula}")
+    return drawn
 
 
 def _inline(writer, node: nodes.math) -> None:

@@ -62,6 +62,7 @@ if _typing.TYPE_CHECKING:
         response,
         transient_growth,
     )
+    from beal.notebook.explore import explore
     from beal.stability.complete import Event
     from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
     from beal.stability.curve import ThrustCurve, thrust_curve
@@ -185,6 +186,7 @@ _HOMES = {
     "discretise": "beal.discretisation.build",
     "dumps": "beal.vehicle.file",
     "envelope": "beal.motion",
+    "explore": "beal.notebook.explore",
     "flight": "beal.study.flight",
     "floquet": "beal.stability.floquet",
     "floquet_chart": "beal.study.pulsating",
@@ -305,6 +307,7 @@ __all__ = [
     "discretise",
     "dumps",
     "envelope",
+    "explore",
     "flight",
     "floquet",
     "floquet_chart",

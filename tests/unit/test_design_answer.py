@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import beal
+import beal.design.answer
 from beal.stability.critical import critical_thrust
 
 BECK = 20.0509536
@@ -73,10 +74,9 @@ def test_robustness_speaks_of_factors_on_the_design(found):
     assert found.gaps == ()
 
 
-def test_evidence_that_cannot_be_had_is_told_and_the_rest_kept(tmp_path):
-    """A Ritz formulation has no derivatives."""
-    (tmp_path / "model.toml").write_text(beal.dumps(beal.catalog.tsto(0.6, 10.0, 1e4)))
-    (tmp_path / "study.toml").write_text(
+def ritz_study(folder):
+    (folder / "model.toml").write_text(beal.dumps(beal.catalog.tsto(0.6, 10.0, 1e4)))
+    (folder / "study.toml").write_text(
         """
         model = "model.toml"
         [design]
@@ -88,13 +88,28 @@ def test_evidence_that_cannot_be_had_is_told_and_the_rest_kept(tmp_path):
         modes = 4
         """
     )
-    study = beal.load_design(tmp_path / "study.toml")
-    found = beal.design_answer(study, workers=1)
-    assert found.sensitivity is None
-    assert [gap.partition(":")[0] for gap in found.gaps] == ["sensitivities"]
+    return beal.load_design(folder / "study.toml")
+
+
+def test_a_ritz_formulation_is_answered_in_its_own_modes(tmp_path):
+    found = beal.design_answer(ritz_study(tmp_path), workers=1)
+    thrust = found.best.critical.critical_thrust
     again = critical_thrust(found.best.vehicle, None, "corrected-ritz", modes=4)
-    assert found.best.critical.critical_thrust == pytest.approx(again.critical_thrust, rel=1e-7)
-    assert float(found.chart.critical_thrust.max()) <= found.best.critical.critical_thrust * (1 + 1e-6)
+    assert thrust == pytest.approx(again.critical_thrust, rel=1e-7)
+    assert float(found.chart.critical_thrust.max()) <= thrust * (1 + 1e-6)
+    assert found.sensitivity.critical is found.best.critical
+    assert found.best.second is None
+
+
+def test_evidence_that_cannot_be_had_is_told_and_the_rest_kept(tmp_path, monkeypatch):
+    def lost(*told, **more):
+        raise beal.ConvergenceError("lost on the way")
+
+    monkeypatch.setattr(beal.design.answer, "sensitivity", lost)
+    found = beal.design_answer(ritz_study(tmp_path), workers=1)
+    assert found.sensitivity is None
+    assert found.gaps == ("sensitivities: lost on the way",)
+    assert found.given.critical_thrust < found.best.critical.critical_thrust
 
 
 @pytest.mark.parametrize(

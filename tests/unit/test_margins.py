@@ -43,6 +43,16 @@ def test_every_margin_puts_a_root_on_the_axis(station):
             assert np.abs(roots - 1j * margin.angular_frequency).min() < 1e-5 * margin.angular_frequency
 
 
+def test_an_undamped_mode_is_no_gain_margin():
+    gains = [
+        Gain(sensor="imu", quantity="slope", gain=0.6),
+        Gain(sensor="imu", quantity="slope_rate", gain=0.15),
+    ]
+    update = {"sensors": (Sensor(name="imu", station=0.6),), "control": Control(gains=gains, lag=0.02)}
+    missile = catalog.beal().model_copy(update=update)
+    assert stability_margins(missile, 8.0, modes=2).gain == ()  # where Im L changes its sign L has a pole
+
+
 def test_margins_with_an_integrator_an_accelerometer_and_an_engine_put_a_root_on_the_axis():
     def heavy(factor=1.0, delay=0.0):
         gains = {"slope": 0.6, "slope_rate": 0.2, "acceleration": 0.01}

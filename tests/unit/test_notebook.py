@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 import beal
@@ -80,6 +81,17 @@ def released(vehicle):
     return beal.response(beal.discretise(vehicle), 0.2, 90.0, initial=beal.Release(0.1))
 
 
+def delayed(vehicle):
+    law = beal.Control(gains=[beal.Gain(sensor="imu", quantity="slope", gain=0.6)], lag=0.02)
+    return vehicle.model_copy(update={"control": law})
+
+
+def scattered(vehicle):
+    spring = {"joint[0].shear_stiffness": beal.Distribution.lognormal(median=5000.0, cv=0.3)}
+    return beal.sample(beal.Uncertain(vehicle, spring), 64, workers=1)
+
+
+GRID = {"joint[0].rotational_stiffness": [1.0, 1e2, 1e4], "joint[0].shear_stiffness": [1e2, 1e3, 1e4]}
 RESULTS = {
     "critical": (lambda vehicle: beal.critical_thrust(vehicle), "flutter at P = 106.437231", 0),
     "stable": (lambda vehicle: beal.critical_thrust(vehicle, 50.0), "stable up to P = 50, as far as", 0),
@@ -90,6 +102,19 @@ RESULTS = {
     ),
     "curve": (lambda vehicle: beal.thrust_curve(vehicle, 120.0, 13), "4 modes over thrust, 13 points", 1),
     "response": (lambda vehicle: released(vehicle), "motion under P = 90", 1),
+    "spectrum": (lambda vehicle: beal.spectrum(beal.discretise(vehicle), 50.0), "elastic modes at P = 50", 0),
+    "floquet": (lambda vehicle: beal.floquet(vehicle, 50.0, 5.0, 30.0), "P = 50 + 5 cos(30 t): unstable", 1),
+    "margins": (lambda vehicle: beal.stability_margins(delayed(vehicle), 8.0), "smallest margins at P = 8: ", 0),
+    "no margins": (lambda vehicle: beal.stability_margins(controlled(vehicle), 8.0), "no margins at P = 8: ", 0),
+    "controlled": (
+        lambda vehicle: beal.controlled_thrust(controlled(vehicle)),
+        "with the loop closed: divergence at P = 25.61",
+        0,
+    ),
+    "fed": (lambda vehicle: beal.controlled_thrust(delayed(vehicle)), "unstable under any thrust", 0),
+    "sensitivity": (lambda vehicle: beal.sensitivity(vehicle), "flutter at P = 106.437231; derivatives: smooth", 1),
+    "sample": (lambda vehicle: scattered(vehicle), "64 vehicles: 0 stable, 64 flutter", 1),
+    "refined": (lambda vehicle: beal.refined_map(vehicle, GRID, 0.25), "points, and ", 1),
     "closed loop": (lambda vehicle: beal.closed_loop(controlled(vehicle), 8.0, 2), "closed loop at P = 8: ", 0),
     "locus": (lambda vehicle: beal.control_locus(controlled(vehicle), "thrust", [2.0, 4.0], modes=1), "", 1),
     "vehicle": (lambda vehicle: vehicle, "rotational stiffness", 1),
@@ -112,6 +137,12 @@ def test_a_flight_is_shown_with_its_least_margin():
     html = beal.flight(vehicle)._repr_html_()
     assert "least margin 1.0051 at t = 1" in text_of(html)  # 20.0509536 / 10 - 1
     assert len(pictures(html)) == 1
+
+
+def test_a_sample_of_which_nothing_could_be_solved_says_so():
+    nothing = np.full(64, np.nan)
+    found = beal.Sample(("x",), nothing[:, None], nothing, np.full(64, -1, np.int8), 1.0, "monte-carlo", 0, 1)
+    assert "64 not solved" in text_of(found._repr_html_())
 
 
 def test_si_units_are_told():

@@ -116,11 +116,26 @@ def test_a_map_is_labelled_in_the_units_of_its_vehicle(ax, units, labels):
     assert [ax.get_xlabel(), ax.figure.axes[1].get_ylabel()] == labels
 
 
+def test_a_map_over_two_joints_says_which_axis_is_which(ax):
+    names = {"k": "joint[0].rotational_stiffness", "s": "joint[1].rotational_stiffness"}
+    plot.stability_map(chart(1, 1, 2).rename(names).assign_attrs(units="SI"), ax, colorbar=False)
+    words = "rotational stiffness $k_r$ (N m/rad)"
+    assert [ax.get_xlabel(), ax.get_ylabel()] == [f"joint[0]: {words}", f"joint[1]: {words}"]
+
+
 @pytest.mark.parametrize("quantity", ["displacement", "rate", "slope"])
 def test_a_response_is_drawn_as_computed(ax, quantity):
     moved = solve(catalog.tsto(0.6, 5000.0, 5000.0), 0.5, 50.0, initial=ModeShape(1, 1e-3))
     plot.response(moved, ax, quantity=quantity)
     np.testing.assert_array_equal(ax.lines[-1].get_ydata(), getattr(moved, quantity)[0])
+
+
+@pytest.mark.parametrize(("duration", "points", "words"), [(0.5, 1, []), (0.1, 0, ["turns less than twice"])])
+def test_an_envelope_of_few_points_is_seen(ax, duration, points, words):
+    vehicle = catalog.tsto(0.6, 5000.0, 5000.0)
+    plot.envelope(solve(vehicle, duration, 50.0, initial=ModeShape(1, 1e-3), rigid_body=False), ax)
+    (line,) = ax.lines
+    assert (len(line.get_xdata()), line.get_marker(), labels(ax)) == (points, "o", words)
 
 
 def test_a_trajectory_marks_where_it_starts(ax):

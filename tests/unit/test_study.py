@@ -44,6 +44,27 @@ def test_a_study_file_resolves_ranges_and_values(tmp_path):
     assert study.at((10.0, 0.2)).boundaries[1] == 0.2
 
 
+def test_an_axis_takes_the_units_that_the_model_file_takes(tmp_path):
+    (tmp_path / "rocket.toml").write_text(
+        beal.dumps(beal.Vehicle(stages=[beal.Stage(length=2.0, mass_per_length=1.0, bending_stiffness=1.0)]))
+    )
+    path = tmp_path / "study.toml"
+    path.write_text(
+        """
+        model = "rocket.toml"
+        [grid]
+        "stage[0].bending_stiffness" = {from = "1 kN*m^2", to = 4e3, points = 4}
+        "stage[0].length" = {values = ["200 cm", 3]}
+        """
+    )
+    axes = load_study(path).axes
+    assert axes["stage[0].bending_stiffness"] == pytest.approx((1e3, 2e3, 3e3, 4e3), rel=1e-15)
+    assert axes["stage[0].length"] == pytest.approx((2.0, 3.0), rel=1e-15)
+    path.write_text('model = "rocket.toml"\n[grid]\n"stage[0].length" = {values = ["2 kg"]}\n')
+    with pytest.raises(beal.ModelError, match=r"grid\.stage\[0\]\.length: expected .* converts to m, found '2 kg'"):
+        load_study(path)
+
+
 @pytest.mark.parametrize(
     ("grid", "message"),
     [
@@ -55,6 +76,9 @@ def test_a_study_file_resolves_ranges_and_values(tmp_path):
         (f'"{ROTATIONAL}" = {{values = []}}', "at least one value"),
         (f'"{ROTATIONAL}" = {{values = [-1.0]}}', r"joint\[0\].rotational_stiffness"),
         (f'"{ROTATIONAL}" = {{values = [nan]}}', "nan"),
+        (f'"{ROTATIONAL}" = {{values = [true]}}', "must be a number"),
+        (f'"{ROTATIONAL}" = {{values = ["3 N"]}}', "expected a pure number"),
+        (f'"{ROTATIONAL}" = {{from = 1, to = inf, points = 3}}', "finite"),
         ("", "at least one axis"),
     ],
 )

@@ -75,7 +75,8 @@ def map_study(
     single = f"; {data['method']['single']} solved one by one" if data["method"]["single"] else ""
     print(f"{output}: {data['points']} points: {kinds}" + (f"; {failed}" if failed else "") + single)
     if data["lowest"] is not None:
-        print(f"critical thrust from {data['lowest']:.6g} to {data['highest']:.6g}")
+        unit = " N" if task.vehicle.units == "SI" else ""
+        print(f"critical thrust from {data['lowest']:.6g} to {data['highest']:.6g}{unit}")
     if borders:
         print(
             "borders resolved to {width:g}: {points} points more, {cells} cells; ".format(**borders["refined"]), end=""

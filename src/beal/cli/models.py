@@ -59,7 +59,7 @@ def _show_part(part: dict[str, Any], units: dict[str, str]) -> None:
                 known = units | OF_STAGES if units and name == "stages" else units
                 columns = [titled(key, known) for key in value[0]]
                 show_table(columns, [[told(item) for item in row.values()] for row in value], name.replace("_", " "))
-        elif value not in (None, ""):
+        elif value not in (None, "", ()):
             ends = isinstance(value, dict)
             text = ", ".join(f"{key} {told(item)}" for key, item in value.items()) if ends else cell(value)
             print(f"{name.replace('_', ' ')}: {text} {units.get(name, '')}".rstrip())

@@ -9,6 +9,7 @@ lightly damped mode.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.linalg import block_diag, eigvals
@@ -17,10 +18,12 @@ from beal.control.compensator import Array
 from beal.control.loop import Loop
 from beal.control.opened import broken, opened
 from beal.discretisation import Operators
+from beal.shown import Shown
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
 LEAST = 1e-8  # of |L| where a gain margin is told; below, L vanishes
+REAL = 1e-6  # |Im L| beside |L| of a zero of Im L; at an undamped mode, a pole, the secant method ends too
 AXIS = 1e-3  # |Re s| beside |s| of a zero that may lie on the axis; the secant method decides
 RIGID = 1e-3  # frequency of a rigid-body motion, beside the reference frequency
 STEPS, CLOSE, APART = 30, 1e-13, 1e-6  # of the secant method, and relative distance below which two are one
@@ -74,7 +77,7 @@ class PhaseMargin:
 
 
 @dataclass(frozen=True)
-class Margins:
+class Margins(Shown):
     """Where the loop of a vehicle, broken at the actuator, meets -1.
 
     Parameters
@@ -84,11 +87,13 @@ class Margins:
     gain : tuple of GainMargin
     phase : tuple of PhaseMargin
         In order of frequency, as many as there are.
+    units : {"SI", "nondimensional"}
     """
 
     thrust: float
     gain: tuple[GainMargin, ...]
     phase: tuple[PhaseMargin, ...]
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def smallest_gain(self) -> GainMargin | None:
@@ -136,8 +141,9 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
     """
     with one_thread():
         small, thrust = broken(model, thrust, modes)
+        units = small.operators.vehicle.units
         if small.static or not thrust:
-            return Margins(thrust, (), ())
+            return Margins(thrust, (), (), units)
         A, B, C, D = opened(small, thrust)
         frequencies, top = _frequencies(small, thrust, modes)
 
@@ -147,11 +153,15 @@ def stability_margins(model: Vehicle | Operators, thrust: float | None = None, m
         both, series = block_diag(A, -A), np.block([[A, -B @ C], [np.zeros_like(A), -A]])
         real = _zeros(both, np.vstack((B, B)), np.hstack((C, C)), 0.0)
         unit = _zeros(series, np.vstack((D * B, B)), np.hstack((C, -D * C)), D**2 - 1)
-        crossed = [(omega, L(omega).real) for omega in _settled(lambda w: L(w).imag, real, top)]
+        crossed = [(omega, L(omega)) for omega in _settled(lambda w: L(w).imag, real, top)]
         met = [(omega, L(omega)) for omega in _settled(lambda w: abs(L(w)) - 1, unit, top)]
-    gain = [GainMargin(-1 / value, omega, _nearest(frequencies, omega)) for omega, value in crossed if value < -LEAST]
+    gain = [
+        GainMargin(-1 / value.real, omega, _nearest(frequencies, omega))
+        for omega, value in crossed
+        if value.real < -LEAST and abs(value.imag) < REAL * abs(value)
+    ]
     phase = [PhaseMargin(math.degrees(np.angle(-value)), omega, _nearest(frequencies, omega)) for omega, value in met]
-    return Margins(thrust, tuple(gain), tuple(phase))
+    return Margins(thrust, tuple(gain), tuple(phase), units)
 
 
 def _frequencies(closed: Loop, thrust: float, modes: int) -> tuple[Array, float]:

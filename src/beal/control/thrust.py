@@ -12,6 +12,7 @@ from beal.control.closed import GROWING, lowest_roots, refinements
 from beal.control.crossings import condensed, crossings, first_order
 from beal.control.loop import Loop, law_of
 from beal.errors import ConvergenceError, ModelError
+from beal.shown import Shown
 from beal.stability.critical import critical_events, critical_thrust
 from beal.stability.limit import default_limit
 from beal.stability.threads import one_thread
@@ -23,7 +24,7 @@ STEPS, CLOSE = 20, 1e-13  # of the secant method
 
 
 @dataclass(frozen=True)
-class ControlledThrust:
+class ControlledThrust(Shown):
     """The smallest thrust at which a vehicle with its control law closed is no longer stable.
 
     Parameters
@@ -41,6 +42,7 @@ class ControlledThrust:
         In N.
     watched_modes : int
         Number of elastic modes that were looked at.
+    units : {"SI", "nondimensional"}
     """
 
     critical_thrust: float | None
@@ -49,6 +51,7 @@ class ControlledThrust:
     error_estimate: float | None
     searched_to: float
     watched_modes: int
+    units: Literal["SI", "nondimensional"] = "SI"
 
 
 def controlled_thrust(vehicle: Vehicle, max_thrust: float | None = None, modes: int = 6) -> ControlledThrust:
@@ -105,6 +108,7 @@ def controlled_thrust(vehicle: Vehicle, max_thrust: float | None = None, modes: 
         raise ModelError(f"max_thrust: must be a positive number, found {max_thrust}")
     if modes < 1:
         raise ModelError(f"modes: must be at least 1, found {modes}")
+    units = vehicle.units
     with one_thread():
         limit = max_thrust or default_limit(vehicle)
         first, *finer = islice(refinements(vehicle, modes), 3)
@@ -112,10 +116,10 @@ def controlled_thrust(vehicle: Vehicle, max_thrust: float | None = None, modes: 
             return _undamped([first, *finer], limit)
         start = next((thrust for thrust, grows in changes(first, limit, modes) if grows), None)
         if start is None:
-            return ControlledThrust(None, "stable", None, None, limit, modes)
+            return ControlledThrust(None, "stable", None, None, limit, modes, units)
         if not start:
             s = leading(first, _candidates(first, limit, modes)[0] / 2, modes)
-            return ControlledThrust(0.0, "flutter" if s.imag else "divergence", abs(s.imag), 0.0, limit, modes)
+            return ControlledThrust(0.0, "flutter" if s.imag else "divergence", abs(s.imag), 0.0, limit, modes, units)
         thrusts: list[float] = []
         s = leading(first, start, modes)
         for closed in (first, *finer):
@@ -126,16 +130,17 @@ def controlled_thrust(vehicle: Vehicle, max_thrust: float | None = None, modes: 
         raise ConvergenceError(f"critical thrust near {start:.6g}: it does not converge")
     kind: Literal["flutter", "divergence"] = "flutter" if abs(s.imag) > REAL * first.speed else "divergence"
     omega = abs(s.imag) if kind == "flutter" else 0.0
-    return ControlledThrust(thrusts[-1], kind, omega, error, limit, modes)
+    return ControlledThrust(thrusts[-1], kind, omega, error, limit, modes, units)
 
 
 def _undamped(loops: list[Loop], limit: float) -> ControlledThrust:
     """A law without damping and delay is a part of the stiffness."""
     coarse, fine = (critical_thrust(closed.closed(), limit) for closed in (loops[0], loops[-1]))
+    watched, units = fine.watched_modes, fine.units
     if fine.critical_thrust is None or coarse.critical_thrust is None:
-        return ControlledThrust(None, "stable", None, None, limit, fine.watched_modes)
+        return ControlledThrust(None, "stable", None, None, limit, watched, units)
     error = max(fine.error_estimate or 0.0, abs(fine.critical_thrust - coarse.critical_thrust))
-    return ControlledThrust(fine.critical_thrust, fine.kind, fine.angular_frequency, error, limit, fine.watched_modes)
+    return ControlledThrust(fine.critical_thrust, fine.kind, fine.angular_frequency, error, limit, watched, units)
 
 
 def changes(closed: Loop, limit: float, modes: int) -> Iterator[tuple[float, bool]]:

@@ -126,7 +126,7 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
     else:
         refined = run_refined(charted, WIDTH, workers=workers, progress=partial(tell, "map"))
         chart = refined.grid
-    slopes = partial(sensitivity, vehicle, formulation=how.formulation, critical=best.critical)
+    slopes = partial(sensitivity, vehicle, formulation=how.formulation, critical=best.critical, modes=how.modes)
     return DesignAnswer(
         study,
         best,

@@ -26,7 +26,7 @@ class CriticalGradient:
     thrust, angular_frequency : ndarray, shape (paths,)
         Derivatives of the critical thrust and of its frequency; with respect to 1/value where a value is infinite.
     status : tuple of str
-        Of each, as `Parameter.status`.
+        Of each, as the one of a `beal.Parameter`.
     """
 
     critical: CriticalThrust

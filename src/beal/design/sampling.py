@@ -15,6 +15,7 @@ from scipy.stats import qmc
 from beal.design.uncertain import Uncertain
 from beal.discretisation.build import RITZ
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.limit import default_limit
 from beal.stability.threads import one_thread
 from beal.study.blocks import ALONE, DAMPED
@@ -35,7 +36,7 @@ SHARED, SINGLE = 20_000, 16  # samples of a task: solved together, one by one
 
 
 @dataclass(frozen=True)
-class Sample:
+class Sample(Shown):
     """Random vehicles and the thrusts at which they fail.
 
     Parameters
@@ -54,6 +55,7 @@ class Sample:
         Independent parts of equal size, one after the other.
     truncated : mapping of path to float
         Probability that was cut off.
+    units : {"SI", "nondimensional"}
     """
 
     paths: tuple[str, ...]
@@ -65,6 +67,7 @@ class Sample:
     seed: int
     replicates: int
     truncated: dict[str, float] = field(default_factory=dict)
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def failed(self) -> int:
@@ -130,7 +133,16 @@ def sample(
     values = uncertain.values(_cube(len(uncertain.distributions), samples, method, seed, replicates))
     thrust, kind, limit = solve_values(uncertain, values, solve, workers, progress)
     return Sample(
-        tuple(uncertain.distributions), values, thrust, kind, limit, method, seed, replicates, uncertain.truncated
+        tuple(uncertain.distributions),
+        values,
+        thrust,
+        kind,
+        limit,
+        method,
+        seed,
+        replicates,
+        uncertain.truncated,
+        uncertain.vehicle.units,
     )
 
 

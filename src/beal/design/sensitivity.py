@@ -10,6 +10,7 @@ from beal.design.branches import Flown, Slopes, Status, branch, builder, no_slop
 from beal.design.derivatives import Quantity, bare, quantities_of
 from beal.discretisation.build import Formulation
 from beal.errors import ConvergenceError, ModelError
+from beal.shown import Shown
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.double_root import CriticalPoint
@@ -83,7 +84,7 @@ class Rival:
 
 
 @dataclass(frozen=True)
-class Sensitivity:
+class Sensitivity(Shown):
     """Derivatives of a critical thrust.
 
     Parameters
@@ -159,7 +160,7 @@ def sensitivity(
     Notes
     -----
     The critical thrust is the smallest of many. Where another instability overtakes it, it has a kink; where a pair of
-    modes begins or ceases to meet, it jumps. `Sensitivity.status` tells what is close above; an instability that a
+    modes begins or ceases to meet, it jumps. The attribute ``status`` tells what is close above; an instability that a
     change of the vehicle would newly bring about, below, is not seen.
 
     Source: Seyranian & Mailybaev (2003), Multiparameter stability theory with mechanical applications.

@@ -126,7 +126,8 @@ def _table(rows: Rows, names: Mapping[str, str], plain: bool, problems: list[Rem
         there.pop(key, None)
     first, last = ("x", "x") if of_stations else ("x_start", "x_end")
     if missing := sorted({first, last, *REQUIRED} - there.keys()):
-        problems.append((f"row {top}", f"has no column {', '.join(missing)}; found {', '.join(bare)[:200]}"))
+        other = "other names are given with beal convert --column NAME=COLUMN"
+        problems.append((f"row {top}", f"has no column {', '.join(missing)}; found {', '.join(bare)[:200]}; {other}"))
         return Table([], of_stations, [])
     label = there.pop(LABEL, None)
     factors = {key: _factor(head[place], UNITS[key], plain, problems) for key, place in there.items()}

@@ -1,16 +1,39 @@
 """The HTML of whatever a notebook can show."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
-from beal.control import ClosedLoop, ControlLocus
+from beal.control import ClosedLoop, ControlledThrust, ControlLocus, Margins
+from beal.design.sampling import Sample
+from beal.design.sensitivity import Sensitivity
 from beal.motion import Response
-from beal.notebook import results
+from beal.notebook import loops, results, studies
 from beal.notebook.vehicle import vehicle
 from beal.shown import Shown
 from beal.stability.critical import CriticalThrust
 from beal.stability.curve import ThrustCurve
+from beal.stability.floquet import Floquet
+from beal.stability.spectrum import Spectrum
 from beal.study.flight import Flight
+from beal.study.refined import RefinedMap
 from beal.vehicle.vehicle import Vehicle
+
+BLOCKS: dict[type[Shown], Callable[[Any], Iterator[str]]] = {
+    Vehicle: vehicle,
+    CriticalThrust: results.critical,
+    ThrustCurve: results.curve,
+    Spectrum: results.spectrum,
+    Floquet: results.floquet,
+    Flight: results.flight,
+    Response: results.response,
+    ClosedLoop: loops.closed_loop,
+    ControlLocus: loops.control_locus,
+    Margins: loops.margins,
+    ControlledThrust: loops.controlled,
+    RefinedMap: studies.refined,
+    Sensitivity: studies.sensitivity,
+    Sample: studies.sample,
+}
 
 CSS = """
 .beal .verdict { font-weight: 600; }
@@ -45,19 +68,7 @@ def html(result: Shown) -> str:
 
 
 def _blocks(result: Shown) -> Iterator[str]:
-    match result:
-        case Vehicle():
-            return vehicle(result)
-        case CriticalThrust():
-            return results.critical(result)
-        case ThrustCurve():
-            return results.curve(result)
-        case Flight():
-            return results.flight(result)
-        case Response():
-            return results.response(result)
-        case ClosedLoop():
-            return results.closed_loop(result)
-        case ControlLocus():
-            return results.control_locus(result)
+    for kind, blocks in BLOCKS.items():
+        if isinstance(result, kind):
+            return blocks(result)
     raise TypeError(f"{type(result).__name__}: no way to show it")

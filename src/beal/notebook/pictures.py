@@ -1,4 +1,4 @@
-"""Figures inside HTML."""
+"""Figures inside HTML, and the line above them."""
 
 from collections.abc import Callable
 from html import escape
@@ -41,6 +41,21 @@ def picture(draw: "Callable[[Any, Figure], object]", title: str, width: float = 
         figure = Figure(figsize=(width, height), layout="constrained")
         draw(plot, figure)
         return image(figure, title)
+
+
+def verdict(text: str) -> str:
+    """What was found, as the first line.
+
+    Parameters
+    ----------
+    text : str
+        HTML.
+
+    Returns
+    -------
+    str
+    """
+    return f'<p class="verdict">{text}</p>'
 
 
 def image(figure: "Figure", title: str) -> str:

@@ -5,13 +5,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from beal.control import ClosedLoop, ControlLocus
 from beal.motion import Response
-from beal.notebook.pictures import HIGH, picture
+from beal.notebook.pictures import HIGH, picture, verdict
 from beal.report import table
-from beal.report.numbers import cell, quantity
+from beal.report.numbers import cell, digits, quantity
 from beal.stability.critical import CriticalThrust
 from beal.stability.curve import ThrustCurve
+from beal.stability.floquet import Floquet
+from beal.stability.spectrum import Spectrum
 from beal.study.flight import Flight
 
 if TYPE_CHECKING:
@@ -34,14 +35,14 @@ def critical(found: CriticalThrust) -> Iterator[str]:
     force, frequency = ("N", " rad/s") if found.units == "SI" else ("", "")
     searched = quantity(found.searched_to, force)
     if found.elastic:
-        yield _verdict("tumbles as a rigid body under any thrust; of its elastic modes alone:")
+        yield verdict("tumbles as a rigid body under any thrust; of its elastic modes alone:")
         yield from critical(found.elastic)
         return
     rows = []
     if found.critical_thrust is None or found.modes is None:
-        yield _verdict(f"stable up to P = {searched}, as far as was searched")
+        yield verdict(f"stable up to P = {searched}, as far as was searched")
     else:
-        yield _verdict(f"{found.kind} at P = {quantity(found.critical_thrust, force, found.error_estimate)}")
+        yield verdict(f"{found.kind} at P = {quantity(found.critical_thrust, force, found.error_estimate)}")
         rows += [
             ["modes", " and ".join(str(mode) if mode else "rigid body" for mode in sorted(set(found.modes)))],
             ["angular frequency", f"{cell(found.angular_frequency)}{frequency}"],
@@ -74,45 +75,54 @@ def curve(found: ThrustCurve) -> Iterator[str]:
     yield f"<p>{title}, {points} points, formulation {found.formulation}; dotted: unstable</p>"
 
 
-def closed_loop(found: ClosedLoop) -> Iterator[str]:
+def spectrum(found: Spectrum) -> Iterator[str]:
     """Blocks of HTML.
 
     Parameters
     ----------
-    found : ClosedLoop
+    found : Spectrum
 
     Yields
     ------
     str
     """
-    force, rate = ("N", " [1/s]") if found.units == "SI" else ("", "")
-    state = "stable" if found.stable else f"unstable, its motion grows as exp({found.least_damped.real:.4g} t)"
-    yield _verdict(f"closed loop at P = {quantity(found.thrust, force)}: {state}")
-    if found.drift:
-        yield f"<p>{found.drift} zero roots of rigid-body drift</p>"
-    rows = [
-        [cell(root.real + 0.0), cell(root.imag), cell(ratio)]
-        for root, ratio in zip(found.roots.tolist(), found.damping_ratio.tolist(), strict=True)
-        if root.imag >= 0 and root
-    ]
-    yield table([f"real part{rate}", f"imaginary part{rate and ' [rad/s]'}", "damping ratio"], rows, numeric=range(3))
+    si = found.units == "SI"
+    yield verdict(f"elastic modes at P = {quantity(found.thrust, 'N' if si else '')}")
+    order = found.angular_frequency.argsort(kind="stable")
+    rows = []
+    for number, mode in enumerate(order, 1):
+        omega, growth = float(found.angular_frequency[mode]), float(found.growth_rate[mode]) + 0.0  # no -0
+        rows.append([number, cell(omega), *([cell(omega / (2 * np.pi))] if si else []), cell(growth)])
+    names = ["angular frequency [rad/s]", "frequency [Hz]", "growth rate [1/s]"]
+    header = ["mode", *(names if si else ["angular frequency", "growth rate"])]
+    yield table(header, rows, numeric=range(len(header)))
+    yield f"<p>rigid-body modes, not listed: {found.rigid_body_modes}</p>"
 
 
-def control_locus(found: ControlLocus) -> Iterator[str]:
+def floquet(found: Floquet) -> Iterator[str]:
     """Blocks of HTML.
 
     Parameters
     ----------
-    found : ControlLocus
+    found : Floquet
 
     Yields
     ------
     str
     """
-    title = f"roots of the closed loop over {found.over}"
-    yield picture(
-        lambda plot, on: plot.control_locus(found, on.subplots(), found.units != "SI"), title, height=1.2 * HIGH
-    )
+    force = "N" if found.units == "SI" else ""
+    state = "stable" if found.stable else f"unstable, its motion grows as exp({found.growth_rate:.4g} t)"
+    mean, swing = (quantity(thrust, force) for thrust in (found.thrust, found.amplitude))
+    yield verdict(f"P = {mean} + {swing} cos({cell(found.angular_frequency)} t): {state}")
+    if found.steady_growth_rate > 0:
+        yield "<p>unstable already without the pulsation</p>"
+    yield picture(lambda plot, on: plot.multipliers(found, on.subplots()), "multipliers of a period", height=1.2 * HIGH)
+    modulus = digits(found.largest_modulus, found.error_estimate)
+    rows = [["largest modulus of the multipliers", modulus]]
+    if near := found.resonance:
+        rows.append(["nearest resonance", f"{near.name} = {cell(near.angular_frequency)}"])
+    rows.append(["rigid-body motions left out", str(found.rigid_body_modes)])
+    yield table([], rows)
 
 
 def flight(found: Flight) -> Iterator[str]:
@@ -132,7 +142,7 @@ def flight(found: Flight) -> Iterator[str]:
         bound = "at least " if found.at_least[least] else ""
         at = f"at t = {cell(float(found.time[least]))}{second}"
         margin = cell(float(found.margin[least]))
-        yield _verdict(f"least margin {bound}{margin} {at}: critical over actual thrust, less 1")
+        yield verdict(f"least margin {bound}{margin} {at}: critical over actual thrust, less 1")
     yield picture(
         lambda plot, on: plot.flight(found, on.subplots()), "frequencies and thrusts over the flight", height=5.2
     )
@@ -164,7 +174,3 @@ def _histories(found: Response, plot: Any, figure: "Figure") -> None:
     for sensor, ax in zip(found.sensors, panels[:, 0], strict=True):
         plot.response(found, ax, sensor, nondimensional=found.units != "SI").set_title(sensor)
         ax.label_outer()
-
-
-def _verdict(text: str) -> str:
-    return f'<p class="verdict">{text}</p>'

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FAINT, AUDIBLE = 1e-12, 1e-4  # of the largest amplitude: what is drawn at all, and up to where the axis reaches
+FEW = 10  # points of an envelope up to which each is marked, since one alone makes no line
 TIME = r"time $\bar t = t\,(EI/mL^4)^{1/2}$"
 
 
@@ -115,7 +116,10 @@ def envelope(
     """
     with style():
         ax = axes(ax)
-        ax.plot(*amplitudes(result, sensor or result.sensors[0], quantity), color=VERMILION, linewidth=1.2)
+        time, amplitude = amplitudes(result, sensor or result.sensors[0], quantity)
+        ax.plot(time, amplitude, color=VERMILION, linewidth=1.2, marker="o" if len(time) <= FEW else "", markersize=4)
+        if not len(time):
+            ax.text(0.5, 0.5, "turns less than twice", transform=ax.transAxes, ha="center", va="center")
         ax.set_xlabel(TIME if nondimensional else "time (s)")
         ax.set_ylabel(f"amplitude,\n{_label(quantity, nondimensional)}")
         ax.set_xlim(result.time[0], result.time[-1])

@@ -1,5 +1,6 @@
 """Maps of the critical thrust over two properties: height as colour, kind and modes as borders, hatching and labels."""
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -25,9 +26,10 @@ SMALLEST_LABEL = 0.008  # share of the map below which a region carries no name
 NAMES = {  # non-dimensional, and in SI units
     "critical_thrust": ("critical thrust $P L^2/EI$", "critical thrust P (N)"),
     "stage.split": ("place of the first joint $x/L$",) * 2,
-    "joint[0].rotational_stiffness": ("rotational stiffness $k_r L/EI$", "rotational stiffness $k_r$ (N m/rad)"),
-    "joint[0].shear_stiffness": ("shear stiffness $k_s L^3/EI$", "shear stiffness $k_s$ (N/m)"),
+    "rotational_stiffness": ("rotational stiffness $k_r L/EI$", "rotational stiffness $k_r$ (N m/rad)"),
+    "shear_stiffness": ("shear stiffness $k_s L^3/EI$", "shear stiffness $k_s$ (N/m)"),
 }
+JOINT = re.compile(r"joint\[(\d+)\]\.")
 
 
 def stability_map(
@@ -72,8 +74,8 @@ def stability_map(
         mesh = mesh or _cells(ax, x_edges, y_edges, grid, levels)
         _labels(ax, x, y, regions(grid))
         si = grid.attrs.get("units") == "SI"
-        ax.set_xlabel(axis_label(str(across), si))
-        ax.set_ylabel(axis_label(str(up), si))
+        ax.set_xlabel(axis_label(str(across), si, str(up)))
+        ax.set_ylabel(axis_label(str(up), si, str(across)))
         ax.set_xlim(x_edges[0], x_edges[-1])
         ax.set_ylim(y_edges[0], y_edges[-1])
         if colorbar:
@@ -81,9 +83,14 @@ def stability_map(
         return ax
 
 
-def axis_label(name: str, si: bool) -> str:
-    """Of a quantity, by its path, in SI units or non-dimensional."""
-    return NAMES[name][si] if name in NAMES else name
+def axis_label(name: str, si: bool, beside: str = "") -> str:
+    """Words for a path; which joint it is where it may be another than the first, or the other axis has another."""
+    joint, other = JOINT.match(name), JOINT.match(beside)
+    words = NAMES.get(JOINT.sub("", name))
+    if words is None:
+        return name
+    named = joint and (joint[1] != "0" or (other and other[1] != joint[1]))
+    return f"joint[{joint[1]}]: {words[si]}" if joint and named else words[si]
 
 
 def _cells(

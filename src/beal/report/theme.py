@@ -1,10 +1,13 @@
-"""The look of a report: a readable column, tables that stay legible, sensible print."""
+"""The look of a report: a readable column, tables that stay legible, dark where the reader wants it, sensible print."""
 
 CSS = """
-:root { --ink: #1b1b1b; --soft: #555; --line: #cfcfcf; --tint: #f5f6f8; --accent: #0072b2; }
+:root { color-scheme: light dark; --paper: #fff; --ink: #1b1b1b; --soft: #555; --line: #cfcfcf; --tint: #f5f6f8;
+  --accent: #0072b2; --holds: #d9efe7; --part: #fdf0d0; --fails: #f9ddd0; }
+@media screen and (prefers-color-scheme: dark) { :root { --paper: #16181b; --ink: #e4e4e2; --soft: #a5a8ac;
+  --line: #43474d; --tint: #22262b; --accent: #7cc0ec; --holds: #17443a; --part: #4a3c12; --fails: #5b2a1a; } }
 * { box-sizing: border-box; }
-body { margin: 0; color: var(--ink); background: #fff; font: 17px/1.58 Charter, "Bitstream Charter", "Source Serif 4",
-  Cambria, Georgia, "DejaVu Serif", serif; }
+body { margin: 0; color: var(--ink); background: var(--paper); font: 17px/1.58 Charter, "Bitstream Charter",
+  "Source Serif 4", Cambria, Georgia, "DejaVu Serif", serif; }
 main { max-width: 860px; margin: 0 auto; padding: 2.5rem 1.1rem 4rem; }
 h1 { font-size: 1.9rem; line-height: 1.22; margin: 0 0 .5rem; text-wrap: balance; }
 h2 { font-size: 1.32rem; line-height: 1.3; margin: 2.8rem 0 .6rem;
@@ -26,11 +29,12 @@ th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); 
 td { border-bottom: 1px solid var(--line); padding: .32rem .55rem; vertical-align: top; }
 td.n, th.n { text-align: right; white-space: nowrap; }
 .v { font-weight: 600; white-space: nowrap; }
-.holds { background: #d9efe7; } .part { background: #fdf0d0; } .fails { background: #f9ddd0; }
+.holds { background: var(--holds); } .part { background: var(--part); } .fails { background: var(--fails); }
 figure { margin: 1.5rem 0 2rem; break-inside: avoid; }
 figure .wide { margin: 0 0 .5rem; }
+figure img, figure svg, .beal img { background: #fff; border-radius: 4px; }
 figure img, figure svg { display: block; width: 100%; height: auto; min-width: 560px; }
-figcaption { font-size: .87rem; line-height: 1.46; color: #333; } figcaption b { color: var(--ink); }
+figcaption { font-size: .87rem; line-height: 1.46; color: var(--soft); } figcaption b { color: var(--ink); }
 .evidence { font-size: .88rem; line-height: 1.48; } .evidence li { margin-bottom: .35rem; }
 code, pre { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: .87em; }
 pre { background: var(--tint); padding: .7rem 1rem; overflow-x: auto; }

@@ -7,6 +7,8 @@ from beal.report.records import relative
 from beal.stability.critical import CriticalThrust
 from beal.vehicle.vehicle import Vehicle
 
+BEYOND = 1.3  # last thrust of a curve, over the critical one
+
 
 def verdict(vehicle: Vehicle, found: CriticalThrust) -> str:
     """The whole sentence, with the vehicle's title and with what a tumbling vehicle's elastic modes bear.
@@ -101,3 +103,19 @@ def convention(vehicle: Vehicle, formulation: str) -> str:
         warning = " (such a joint does not balance moments)" if "inertial" in axes else ""
         return f"joints: shear axis {axes.pop()}{warning}"
     return "joints: shear axes " + ", ".join(joint.shear_axis for joint in vehicle.joints) + ", from nose to tail"
+
+
+def shown_to(found: CriticalThrust) -> float:
+    """To which thrust a curve shows what happens.
+
+    Parameters
+    ----------
+    found : CriticalThrust
+
+    Returns
+    -------
+    float
+        In N.
+    """
+    first = found.elastic or found
+    return BEYOND * first.critical_thrust if first.critical_thrust else first.searched_to

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from beal.discretisation.basis import segments
 from beal.discretisation.build import DEFAULT_ORDER, discretise
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.pencil import Array, ComplexArray
 from beal.stability.periodic import PulsatingEquations, monodromy, pulsating_equations
 from beal.stability.resonances import Resonance, nearest, resonances
@@ -21,7 +23,7 @@ STEADY = 1e-6  # growth rate beside the highest frequency kept that is rounding
 
 
 @dataclass(frozen=True)
-class Floquet:
+class Floquet(Shown):
     """What a pulsating thrust does to a vehicle over one period.
 
     Parameters
@@ -44,6 +46,7 @@ class Floquet:
     rigid_body_modes : int
         Number of rigid-body motions left out since they drive no others; their multipliers are +1 unless something
         holds or damps them.
+    units : {"SI", "nondimensional"}
     """
 
     thrust: float
@@ -55,6 +58,7 @@ class Floquet:
     resonance: Resonance | None
     steady_growth_rate: float
     rigid_body_modes: int
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def largest_modulus(self) -> float:
@@ -127,6 +131,7 @@ def floquet(
         resonance=nearest(resonances(equations), angular_frequency, amplitude),
         steady_growth_rate=steady_growth_rate(equations),
         rigid_body_modes=operators.rigid - equations.rigid,
+        units=operators.vehicle.units,
     )
 
 

@@ -1,19 +1,21 @@
 """Free vibration of the loaded vehicle: frequencies, growth rates and mode shapes at one thrust."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import scipy.linalg
 
 from beal.discretisation.operators import Operators
 from beal.errors import ModelError
+from beal.shown import Shown
 from beal.stability.damped_roots import NEUTRAL, damped_modes
 from beal.stability.pencil import Array, ComplexArray, Pencil, pencil
 from beal.stability.zero_roots import ZERO
 
 
 @dataclass(frozen=True)
-class Spectrum:
+class Spectrum(Shown):
     """The lowest elastic modes at a thrust, undamped in order of frequency.
 
     Parameters
@@ -29,6 +31,7 @@ class Spectrum:
     s : ndarray, shape (count,), or None
         Roots of a damped vehicle with Im s >= 0, in order of modulus, W being -s^2; an overdamped mode is there with
         both of its real roots. None where nothing is damped: s = sqrt(-W).
+    units : {"SI", "nondimensional"}
     """
 
     thrust: float
@@ -36,6 +39,7 @@ class Spectrum:
     shapes: ComplexArray
     rigid_body_modes: int
     s: ComplexArray | None = None
+    units: Literal["SI", "nondimensional"] = "SI"
 
     @property
     def angular_frequency(self) -> Array:
@@ -100,7 +104,7 @@ def spectrum(operators: Operators, thrust: float = 0.0, count: int = 6) -> Spect
         W, shapes = np.delete(W, smallest), np.delete(shapes, smallest, axis=1)
     embedded = np.zeros((len(operators.M), count), dtype=complex)
     embedded[len(operators.M) - len(shapes) :] = shapes
-    return Spectrum(float(thrust), W, embedded, operators.rigid)
+    return Spectrum(float(thrust), W, embedded, operators.rigid, units=operators.vehicle.units)
 
 
 def _damped(operators: Operators, full: Pencil, thrust: float, count: int) -> Spectrum:
@@ -108,7 +112,7 @@ def _damped(operators: Operators, full: Pencil, thrust: float, count: int) -> Sp
     elastic = np.argsort(np.abs(s) < NEUTRAL * np.sqrt(full.shift), kind="stable")[:count]  # zero roots last
     embedded = np.zeros((len(operators.M), count), dtype=complex)
     embedded[len(operators.M) - len(shapes) :] = shapes[:, elastic]
-    return Spectrum(float(thrust), -(s[elastic] ** 2), embedded, operators.rigid, s[elastic])
+    return Spectrum(float(thrust), -(s[elastic] ** 2), embedded, operators.rigid, s[elastic], operators.vehicle.units)
 
 
 def lowest(full: Pencil, thrust: float, count: int) -> tuple[ComplexArray, ComplexArray]:

@@ -1,29 +1,43 @@
 """The study file: which model, which axes, how to solve (TOML)."""
 
+import math
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, FiniteFloat, ValidationError, model_validator
+from pydantic import Field, FiniteFloat, PlainValidator, ValidationError, model_validator
 
 from beal.discretisation import Formulation
 from beal.errors import ModelError
 from beal.interop.files import load
 from beal.study.study import Solve, Study, spaced
+from beal.units import to_si
 from beal.vehicle.base import Part, problems, si
 from beal.vehicle.file import read_toml
 from beal.vehicle.links import Link
+from beal.vehicle.paths import unit_at
 
 MAX_AXIS = 1_000_000
+
+
+def _number_or_text(value: Any) -> float | str:
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise ValueError("must be a number, or a number with a unit")
+    if isinstance(value, float) and math.isnan(value):
+        raise ValueError("must be a number, found nan")
+    return value
+
+
+Given = Annotated[float | str, PlainValidator(_number_or_text)]  # its unit is known only with the model
 
 
 class AxisEntry(Part):
     """``{from, to, points, spacing}`` or ``{values}``."""
 
-    start: Annotated[FiniteFloat, si("")] | None = Field(alias="from", default=None)
-    stop: Annotated[FiniteFloat, si("")] | None = Field(alias="to", default=None)
+    start: Given | None = Field(alias="from", default=None)
+    stop: Given | None = Field(alias="to", default=None)
     points: Annotated[int, Field(ge=1, le=MAX_AXIS, strict=True)] | None = None
     spacing: Literal["linear", "log"] = "linear"
-    values: tuple[Annotated[float, si("")], ...] | None = None
+    values: tuple[Given, ...] | None = None
 
     @model_validator(mode="after")
     def _is_one_of_two(self) -> "AxisEntry":
@@ -32,15 +46,22 @@ class AxisEntry(Part):
             self.values is not None and any(end is not None for end in ends)
         ):
             raise ValueError("give either values or all of from, to and points")
-        if self.values is None and self.spacing == "log" and min(self.start or 0, self.stop or 0) <= 0:
-            raise ValueError(f"a log axis needs positive ends, found from {self.start} to {self.stop}")
         return self
 
-    def resolved(self) -> tuple[float, ...]:
-        """The values along the axis."""
+    def resolved(self, unit: str) -> tuple[float, ...]:
+        """The values along the axis of a quantity that is kept in a unit."""
         if self.values is not None:
-            return self.values
-        return spaced(self.start or 0.0, self.stop or 0.0, self.points or 0, self.spacing)
+            return tuple(_number(value, unit) for value in self.values)
+        start, stop = (_number(end or 0.0, unit) for end in (self.start, self.stop))
+        if not (math.isfinite(start) and math.isfinite(stop)):
+            raise ValueError(f"from and to must be finite, found {start} and {stop}")
+        if self.spacing == "log" and min(start, stop) <= 0:
+            raise ValueError(f"a log axis needs positive ends, found from {start:g} to {stop:g}")
+        return spaced(start, stop, self.points or 0, self.spacing)
+
+
+def _number(given: float | str, unit: str) -> float:
+    return to_si(given, unit) if isinstance(given, str) else float(given)
 
 
 class SolveEntry(Part):
@@ -101,5 +122,13 @@ def load_study(path: str | Path) -> Study:
     except ValidationError as error:
         raise ModelError([(f"{path}: {where}", message) for where, message in problems(error, StudyEntry)]) from None
     vehicle = load(Path(path).parent / entry.model)
-    axes = {name: axis.resolved() for name, axis in entry.grid.items()}
+    axes, bad = {}, []
+    for name, axis in entry.grid.items():
+        unit = unit_at(vehicle, name)
+        try:
+            axes[name] = axis.resolved(unit)
+        except ValueError as error:
+            bad.append((f"{path}: grid.{name}", str(error)))
+    if bad:
+        raise ModelError(bad)
     return Study(vehicle, axes, entry.solve.solve, {path: link.link for path, link in entry.links.items()})

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.discretisation import Formulation
+from beal.shown import Shown
 from beal.study.blocks import together
 from beal.study.lattice import ONE, Index, Integers, Lattice
 from beal.study.map import Progress, study_map
@@ -37,7 +38,7 @@ SIDES = ("kind", "mode_low", "mode_high", "status", "critical_thrust")
 
 
 @dataclass(frozen=True)
-class RefinedMap:
+class RefinedMap(Shown):
     """A stability map whose borders are resolved.
 
     Parameters

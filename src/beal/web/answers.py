@@ -11,8 +11,8 @@ from beal.errors import ModelError
 from beal.motion import ModeShape
 from beal.motion import response as motion_of
 from beal.report.records import critical_record, curve_record, event_record, modes_record, response_record
-from beal.report.verdict import convention, searched, verdict
-from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
+from beal.report.verdict import convention, searched, shown_to, verdict
+from beal.stability.critical import critical_events, critical_thrust
 from beal.stability.curve import thrust_curve
 from beal.stability.large import is_large
 from beal.stability.modes import converged_modes
@@ -27,7 +27,6 @@ from beal.web import questions as ask
 from beal.web.code import command_lines, python_lines
 from beal.web.vehicles import base_of, controls, described, opened, vehicle_of
 
-BEYOND = 1.3  # last thrust of a curve, over the critical one
 COARSE = 6  # degree on each of many segments: frequencies are good to some 1e-7
 DRAWN = 24  # points of a mode shape in each stage
 Answer = dict[str, Any]
@@ -59,7 +58,7 @@ def critical(question: ask.Critical) -> Answer:
 def curve(question: ask.Curve) -> Answer:
     """Modes over thrust, as ``beal curve --json`` gives them."""
     vehicle = vehicle_of(question)
-    to = question.to or _shown(critical_thrust(vehicle, None, question.formulation))
+    to = question.to or shown_to(critical_thrust(vehicle, None, question.formulation))
     found = thrust_curve(vehicle, to, question.points, question.modes, question.formulation)
     return curve_record(vehicle, found)
 
@@ -77,7 +76,7 @@ def solve(question: ask.Solve) -> Answer:
     """What a move of a slider changes: the vehicle, its verdict, its curves, and mode shapes at a thrust."""
     vehicle = vehicle_of(question)
     found = critical_thrust(vehicle, None, question.formulation)
-    to = question.to or _shown(found)
+    to = question.to or shown_to(found)
     coarse = is_large(vehicle) and question.formulation not in RITZ
     operators = discretise(vehicle, question.formulation, order=COARSE if coarse else None)
     count = min(question.modes, len(operators.M) - operators.rigid)
@@ -136,12 +135,6 @@ def code(question: ask.Curve) -> Answer:
     text = dumps(vehicle)
     options = (text, question.formulation, question.to, question.points, question.modes)
     return {"toml": text, "python": python_lines(*options), "command": command_lines(*options)}
-
-
-def _shown(found: CriticalThrust) -> float:
-    """To which thrust a curve shows what happens."""
-    first = found.elastic or found
-    return BEYOND * first.critical_thrust if first.critical_thrust else first.searched_to
 
 
 def _shapes(operators: Operators, found: Spectrum) -> Answer:

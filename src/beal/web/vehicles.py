@@ -6,7 +6,6 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,14 +17,13 @@ from beal.interop.nastran import Imported
 from beal.vehicle.base import Part
 from beal.vehicle.file import dumps, loads, reading_only, vehicle_from
 from beal.vehicle.parts import HeldEnd, ShearAxis, Thrust
-from beal.vehicle.paths import paths, unit_at, value_at, with_values
+from beal.vehicle.paths import with_values
+from beal.vehicle.sliders import sliders
 from beal.vehicle.summary import summary
 from beal.vehicle.vehicle import Vehicle
 from beal.web.questions import Dropped, Question
 
-NOMINAL = "thrust.nominal"
 STAGES = 60  # beyond this an answer takes seconds
-SPRINGS = {"rotational_stiffness": 1, "shear_stiffness": -1, "translation": -1, "rotation": 1}  # EI/L^2 L^n
 CHOICES: dict[str, tuple[str, ...]] = {
     "nose": get_args(HeldEnd),
     "tail": get_args(HeldEnd),
@@ -116,67 +114,7 @@ def described(vehicle: Vehicle) -> dict[str, Any]:
 
 def controls(base: Vehicle, vehicle: Vehicle) -> dict[str, Any]:
     """The sliders and choices of a vehicle; their ranges are those of the vehicle before any was moved."""
-    return {"quantities": list(_quantities(base, vehicle)), "choices": _choices(vehicle)}
-
-
-def _quantities(base: Vehicle, vehicle: Vehicle) -> Iterator[dict[str, Any]]:
-    there = paths(base)
-    for path in [*there, *([] if NOMINAL in there else [NOMINAL])]:
-        name = path.rpartition(".")[2]
-        optional = path == NOMINAL and vehicle.thrust.nominal is None
-        value = None if optional else value_at(vehicle, path)
-        given = None if path not in there else value_at(base, path)
-        low, high, scale = _range(base, path, name, given)
-        if given is not None and math.isfinite(given):
-            low = min(low, given) if given > 0 or scale == "linear" else low
-            high = max(high, given)
-        yield {
-            "path": path,
-            "name": name,
-            "value": "inf" if value == math.inf else value,
-            "unit": unit_at(base, path),
-            "from": low,
-            "to": high,
-            "scale": scale,
-            "may_be_rigid": name in SPRINGS or name in ("bending_stiffness", "shear_stiffness"),
-        }
-
-
-def _range(base: Vehicle, path: str, name: str, value: float | None) -> tuple[float, float, str]:
-    """Ends of a slider, and whether it is logarithmic."""
-    scales, length = base.scales, base.length
-    if path == "stage.split":
-        return 0.02, 0.98 * base.boundaries[2] / length, "linear"
-    if path.startswith(("joint", "support")) and name in SPRINGS:
-        unit = scales.thrust * length ** SPRINGS[name]
-        return unit, 1e5 * unit, "log"
-    if name in ("station", "forward_end", "aft_end"):
-        return 0.0, length, "linear"
-    if name in ("tangency", "scale"):
-        return 0.0, 2.0, "linear"
-    if name == "nominal":
-        return 0.0, 2.0 * (value or 50.0 * scales.thrust), "linear"
-    if name == "fill":
-        return 0.0, 1.0, "linear"
-    if value and math.isfinite(value):
-        if name.endswith("stiffness"):
-            return value / 100, 100 * value, "log"
-        return (value / 4, 4 * value, "log") if value > 0 else (4 * value, -4 * value, "linear")
-    wide = {
-        "shear_stiffness": 1e4 * scales.thrust,
-        "bending_stiffness": 100 * scales.bending_stiffness,
-        "internal_damping": 0.1 * scales.time,
-        "external_damping": 10 * scales.mass_per_length / scales.time,
-        "foundation_stiffness": 1e4 * scales.thrust / length**2,
-        "rotary_inertia_per_length": 0.01 * scales.mass_per_length * length**2,
-        "rotary_inertia": 0.1 * base.mass * length**2,
-        "rotational_damping": 0.1 * scales.thrust * length * scales.time,
-        "shear_damping": 10 * scales.thrust / length * scales.time,
-        "mass": base.mass,
-        "lag": 0.5 * scales.time,
-        "delay": 0.5 * scales.time,
-    }.get(name, 1.0)
-    return (1e-4 * wide, wide, "log") if value == math.inf else (0.0, wide, "linear")
+    return {"quantities": list(sliders(base, vehicle)), "choices": _choices(vehicle)}
 
 
 def _choices(vehicle: Vehicle) -> list[dict[str, Any]]:
