@@ -26,6 +26,7 @@ if _typing.TYPE_CHECKING:
         state_space,
     )
     from beal.design.answer import DesignAnswer, design_answer
+    from beal.design.border import BorderPiece, SpringBorder, spring_border
     from beal.design.design_file import DesignStudy, load_design
     from beal.design.distributions import Distribution
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
@@ -105,6 +106,7 @@ _HOMES = {
     "AmplitudeMap": "beal.motion",
     "AxialLoad": "beal.vehicle.parts",
     "BealError": "beal.errors",
+    "BorderPiece": "beal.design.border",
     "ClosedLoop": "beal.control",
     "Control": "beal.vehicle.control",
     "ControlLocus": "beal.control",
@@ -155,6 +157,7 @@ _HOMES = {
     "SignalThrust": "beal.motion",
     "SobolIndices": "beal.design.indices",
     "Spectrum": "beal.stability.spectrum",
+    "SpringBorder": "beal.design.border",
     "StabilityComponent": "beal.design.mdo",
     "Stage": "beal.vehicle.parts",
     "State": "beal.motion",
@@ -207,6 +210,7 @@ _HOMES = {
     "sensitivity": "beal.design.sensitivity",
     "sobol_indices": "beal.design.indices",
     "spectrum": "beal.stability.spectrum",
+    "spring_border": "beal.design.border",
     "stability_map": "beal.study.map",
     "stability_margins": "beal.control",
     "state_space": "beal.control",
@@ -226,6 +230,7 @@ __all__ = [
     "AmplitudeMap",
     "AxialLoad",
     "BealError",
+    "BorderPiece",
     "ClosedLoop",
     "Control",
     "ControlLocus",
@@ -276,6 +281,7 @@ __all__ = [
     "SignalThrust",
     "SobolIndices",
     "Spectrum",
+    "SpringBorder",
     "StabilityComponent",
     "Stage",
     "State",
@@ -328,6 +334,7 @@ __all__ = [
     "sensitivity",
     "sobol_indices",
     "spectrum",
+    "spring_border",
     "stability_map",
     "stability_margins",
     "state_space",

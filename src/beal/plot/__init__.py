@@ -1,5 +1,6 @@
 """Results to matplotlib axes: each function draws one result and computes nothing."""
 
+from beal.plot.border import spring_border
 from beal.plot.control import control_locus, control_map
 from beal.plot.curves import growth_rates, root_locus, thrust_curve
 from beal.plot.design import design_map
@@ -33,6 +34,7 @@ __all__ = [
     "pseudospectrum",
     "response",
     "root_locus",
+    "spring_border",
     "stability_map",
     "style",
     "thrust_curve",
