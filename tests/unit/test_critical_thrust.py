@@ -128,3 +128,17 @@ def test_events_begin_with_the_critical_thrust():
     first, found = critical_events(vehicle)[0], critical_thrust(vehicle)
     assert first.thrust == pytest.approx(found.critical_thrust, rel=1e-9)
     assert (first.kind, first.modes, first.before, first.unstable) == ("flutter", (1, 2), 0, 2)
+
+
+@pytest.mark.parametrize(
+    ("given", "limit", "kind", "thrust"),
+    [
+        pytest.param((0.6, 11.02383, 1e4), None, "divergence", 81.86769290906, id="window of 0.03 %"),
+        pytest.param((0.6, 250.582061, 5e3), 132.5, "flutter", 106.0000002208, id="next to a step"),
+    ],
+)
+def test_the_fast_search_neither_steps_over_a_window_nor_gives_up_beside_a_step(given, limit, kind, thrust):
+    vehicle = catalog.tsto(*given)
+    for method in ("fast", "complete"):
+        found = critical_thrust(vehicle, limit, method=method)
+        assert (found.kind, found.critical_thrust) == (kind, pytest.approx(thrust, rel=1e-9))

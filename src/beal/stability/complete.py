@@ -16,16 +16,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import scipy.linalg
 
 from beal.stability.double_root import coalescence, divergence
 from beal.stability.pairs import Pairs, matrix, pairs
 from beal.stability.pencil import Array, Pencil
 from beal.stability.ridge import Kind, meeting_pair
-from beal.stability.zero_roots import ZERO, rigid_body_root
+from beal.stability.zero_roots import SAME, ZERO, nearly_real, rigid_body_root, zero_roots
 
-NEARLY_REAL = 3e-2  # relative imaginary part of a thrust up to which a real critical point is looked for beside it
-SAME = 1e-9
 REFERENCE = 0.37  # share of the limit about which the thrusts are expanded: none that a vehicle would prefer
 MASSLESS = 1e-10  # share of the largest inertia below which a coordinate only follows the others
 NEXT = 3e-2  # relative distance up to which a polished thrust is that of its guess
@@ -140,19 +137,6 @@ def inverse_roots(at: Array, change: Array, limit: float) -> Array:
     """Real parts of all nearly real thrusts P in (0, limit] with ``at + (P/limit - REFERENCE) change`` singular."""
     inverse = np.linalg.eigvals(np.linalg.solve(at, -change)).astype(complex)
     return nearly_real(REFERENCE + 1 / inverse[np.abs(inverse) > SAME], limit)
-
-
-def zero_roots(pencil: Pencil, limit: float) -> Array:
-    """All nearly real thrusts in (0, limit] at which K(P) is singular."""
-    alpha, beta = scipy.linalg.eigvals(-limit * pencil.K1, pencil.stiffness(0.0), homogeneous_eigvals=True)
-    finite = np.abs(alpha) > 1e-12 * np.abs(beta)
-    return nearly_real(beta[finite] / alpha[finite], limit)
-
-
-def nearly_real(shares: Array, limit: float) -> Array:
-    near = np.abs(shares.imag) <= NEARLY_REAL * np.abs(shares)
-    inside = (shares.real > SAME) & (shares.real <= 1 + NEARLY_REAL)
-    return np.sort(shares[near & inside].real) * limit
 
 
 def _polished(pencil: Pencil, thrust: float, kind: str, watched: int, neutral: bool) -> list[tuple[float, float, Kind]]:

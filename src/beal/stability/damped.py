@@ -18,14 +18,14 @@ from dataclasses import replace
 import numpy as np
 
 from beal.errors import ConvergenceError
-from beal.stability.complete import REFERENCE, SAME, Event, inverse_roots, zero_roots
+from beal.stability.complete import REFERENCE, Event, inverse_roots
 from beal.stability.damped_roots import NEUTRAL, damped_roots
 from beal.stability.double_root import divergence
 from beal.stability.imaginary_root import damping_of, imaginary_root
 from beal.stability.pairs import matrix, pairs
 from beal.stability.pencil import UNCOUPLED, Array, ComplexArray, Pencil
 from beal.stability.ridge import Kind
-from beal.stability.zero_roots import ZERO, rigid_body_root
+from beal.stability.zero_roots import SAME, ZERO, rigid_body_root, zero_roots
 
 Crossing = tuple[float, float, Kind]  # thrust, W = omega^2, kind
 FLUTTER: Kind = "flutter"

@@ -20,7 +20,7 @@ from beal.errors import ConvergenceError
 from beal.stability.double_root import CriticalPoint, coalescence, divergence
 from beal.stability.kernels.rules import BORDER, DIP, FLAT
 from beal.stability.pencil import Array, ComplexArray, Pencil
-from beal.stability.zero_roots import ZERO, rigid_body_root
+from beal.stability.zero_roots import ZERO, rigid_body_root, zero_roots
 
 Kind = Literal["flutter", "divergence"]
 
@@ -142,12 +142,17 @@ class Search:
         """
         left = self.state(0.0)
         even = np.linspace(0.0, self.limit, self.steps + 1)[1:]
-        for thrust in np.append(even[0] * SOFT, even):
+        for thrust in np.sort(np.concatenate((even[0] * SOFT, even, self._between_divergences()))):
             right = self.state(float(thrust))
             if found := self._within(left, right):
                 return found
             left = right
         return None
+
+    def _between_divergences(self) -> Array:
+        """Thrusts between neighbouring ones at which a root is zero, which all are known: no interval is too narrow."""
+        thrusts = np.array([]) if self._drift else zero_roots(self.pencil, self.limit)
+        return (thrusts[1:] + thrusts[:-1]) / 2
 
     def _within(self, left: State, right: State) -> Instability | None:
         """The first instability between a stable state and another one."""
@@ -202,20 +207,22 @@ class Search:
             return None
         if kind == "divergence" and not neutral:
             point = self._lowest_divergence(point)
-        # A root that meets a zero one, or is all but zero, is lost in rounding closer by.
-        for nearest in BLIND if kind == "divergence" else BLIND[:1]:
-            margin = min(nearest * point.thrust, (point.thrust - left.thrust) / 2)
-            before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
-            negative = after.roots[self._lowest].real < 0  # else the tumbling root has come back to zero
-            if before.stable and not after.stable and (negative or kind == "flutter"):
-                break
-        else:
-            return None
-        if self._within(left, before):
+        # A root that meets a zero one, or is all but zero, is lost in rounding closer by, and so is any next to a step.
+        room = (point.thrust - left.thrust) / 2
+        blind = [share * point.thrust for share in (BLIND if kind == "divergence" else BLIND[:1])]
+        margins = [margin for each in blind for margin in (min(each, room), each)]
+        before = next(filter(None, (self._turns(point, kind, margin) for margin in margins)), None)
+        if before is None or (left.thrust < before.thrust and self._within(left, before)):
             return None
         lowest = self._lowest + 1 - (0 if self._drift == "neutral" else self.pencil.rigid)
         modes = (lowest, lowest) if kind == "divergence" else meeting_pair(self.pencil, before.thrust, point.W)
         return Instability(point, kind, modes, _on_border(before, point))
+
+    def _turns(self, point: CriticalPoint, kind: Kind, margin: float) -> State | None:
+        """The state before a critical point, if it is stable and that behind it is not."""
+        before, after = self.state(point.thrust - margin), self.state(point.thrust + margin)
+        negative = after.roots[self._lowest].real < 0  # else the tumbling root has come back to zero
+        return before if before.stable and not after.stable and (negative or kind == "flutter") else None
 
     def _lowest_divergence(self, point: CriticalPoint) -> CriticalPoint:
         """The first of the divergences that all but tie with one: K(P) is linear in P, all its zeros are known."""
