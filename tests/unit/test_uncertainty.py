@@ -205,3 +205,39 @@ def test_a_wrong_study_file_is_refused_with_the_place(folder, old, new, message)
     (folder / "study.toml").write_text(STUDY.replace(old, new))
     with pytest.raises(ModelError, match=message):
         load_uncertainty(folder / "study.toml")
+
+
+def test_a_study_of_a_vehicle_in_si_takes_units(tmp_path):
+    stage = beal.Stage(length=10.0, mass_per_length=100.0, bending_stiffness=1e8)
+    vehicle = beal.Vehicle(stages=[stage], support=beal.Support(nose="clamped"))
+    (tmp_path / "model.toml").write_text(beal.dumps(vehicle))
+    (tmp_path / "study.toml").write_text(
+        """
+        model = "model.toml"
+        [uncertain]
+        "stage[0].bending_stiffness" = {distribution = "lognormal", median = "100 MN*m^2", cv = 0.1}
+        "stage[0].length" = {distribution = "normal", mean = 10, sd = "2 cm"}
+        [tolerance]
+        "stage[0].length" = {low = "30 ft", high = "12 m"}
+        [scenario.heavy]
+        replace = {"stage[0].mass_per_length" = "0.2 t/m"}
+        """
+    )
+    study = load_uncertainty(tmp_path / "study.toml")
+    laws = study.uncertain.distributions
+    assert laws["stage[0].bending_stiffness"].median == pytest.approx(1e8)
+    assert laws["stage[0].length"].quantile(0.8413447460685429) == pytest.approx(10.02, rel=1e-9)
+    assert study.tolerances["stage[0].length"] == (pytest.approx(9.144), 12.0)
+    assert study.scenarios[0].applied(vehicle).stages[0].mass_per_length == pytest.approx(200.0)
+
+
+@pytest.mark.parametrize("text", ['median = "3 m"', 'median = "stiff"'])
+def test_a_value_of_another_dimension_is_refused_with_its_path(tmp_path, text):
+    (tmp_path / "model.toml").write_text(
+        beal.dumps(beal.Vehicle(stages=[beal.Stage(length=1.0, mass_per_length=1.0, bending_stiffness=1.0)]))
+    )
+    law = f'{{distribution = "lognormal", {text}, cv = 0.1}}'
+    study = f'model = "model.toml"\n[uncertain]\n"stage[0].bending_stiffness" = {law}\n'
+    (tmp_path / "study.toml").write_text(study)
+    with pytest.raises(beal.ModelError, match=r"uncertain\.stage\[0\]\.bending_stiffness: "):
+        load_uncertainty(tmp_path / "study.toml")

@@ -14,16 +14,16 @@ from beal.design.distributions import Distribution
 from beal.design.optimise import Objective
 from beal.design.ranges import thrust_asked
 from beal.design.robust import Scenario
-from beal.design.scatter_file import Number, SamplingEntry, ScatterEntry, distributions
+from beal.design.scatter_file import SamplingEntry, ScatterEntry
 from beal.design.uncertain import Uncertain
 from beal.design.variables import DesignSpace, LinearBound, Variable
 from beal.errors import ModelError
 from beal.interop.files import load
-from beal.study.file import LinkEntry
+from beal.study.file import Given, LinkEntry, number
 from beal.study.study import Solve
 from beal.vehicle.base import Part, problems, si
 from beal.vehicle.file import read_toml
-from beal.vehicle.paths import value_at
+from beal.vehicle.paths import unit_at, value_at
 from beal.vehicle.vehicle import Vehicle
 
 NEAR = (0.5, 2.0)  # medians of factors; others were meant as values
@@ -43,9 +43,13 @@ class QuestionEntry(Part):
 class VariableEntry(Part):
     """Bounds of a variable."""
 
-    low: Number
-    high: Number
+    low: Given
+    high: Given
     spacing: Literal["linear", "log"] = "linear"
+
+    def variable(self, unit: str) -> Variable:
+        """As the library has it, of a quantity that is kept in a unit."""
+        return Variable(number(self.low, unit), number(self.high, unit), self.spacing)
 
 
 class ConstraintEntry(Part):
@@ -163,11 +167,13 @@ def load_design(path: str | Path) -> DesignStudy:
         return _study(entry, vehicle, folder, Path(path).read_text(encoding="utf-8"))
     except ModelError as error:
         raise ModelError(error.problems, str(path)) from None
+    except ValueError as error:
+        raise ModelError([("variables", str(error))], str(path)) from None
 
 
 def _study(entry: DesignEntry, vehicle: Vehicle, folder: Path, text: str) -> DesignStudy:
     asked, drawn = entry.design, entry.sampling
-    variables = {path: Variable(one.low, one.high, one.spacing) for path, one in entry.variables.items()}
+    variables = {path: one.variable(unit_at(vehicle, path)) for path, one in entry.variables.items()}
     links = {path: link.link for path, link in entry.links.items()}
     bounds = [LinearBound(each.coefficients, each.low, each.high) for each in entry.constraint]
     space = DesignSpace(vehicle, variables, links, bounds)
@@ -178,6 +184,7 @@ def _study(entry: DesignEntry, vehicle: Vehicle, folder: Path, text: str) -> Des
         raise ModelError([("design.target", f"goes with the objective mass, not with {asked.objective}")])
     if unknown := [axis for axis in entry.map.axes or () if axis not in variables]:
         raise ModelError([("map.axes", f"must be variables, found {', '.join(unknown)}")])
+    laws, tolerances = entry.scatter(folder, lambda path: "")  # factors
     study = DesignStudy(
         space,
         asked.objective,
@@ -187,11 +194,11 @@ def _study(entry: DesignEntry, vehicle: Vehicle, folder: Path, text: str) -> Des
         asked.keep,
         entry.map.axes or (),
         entry.map.points,
-        distributions(entry.uncertain, folder),
+        laws,
         entry.correlation.by_pair(),
         entry.correlation.measure,
         drawn,
-        entry.tolerances,
+        tolerances,
         entry.scenarios,
         entry.solve.solve,
         text,

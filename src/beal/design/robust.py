@@ -59,13 +59,13 @@ class Scenario:
     name : str
     multiply : mapping of path to float
         Factors on quantities: 0.7 for a joint that lost three bolts of ten.
-    replace : mapping of path to float
+    replace : mapping of path to float or text with a unit
         Values in place of those of the model.
     """
 
     name: str
     multiply: Mapping[str, float] = field(default_factory=dict)
-    replace: Mapping[str, float] = field(default_factory=dict)
+    replace: Mapping[str, float | str] = field(default_factory=dict)
 
     def applied(self, vehicle: Vehicle) -> Vehicle:
         """The vehicle with the imperfection."""

@@ -1,7 +1,8 @@
 """The tables of a study file that say how quantities scatter (TOML)."""
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -12,10 +13,11 @@ from beal.design.distributions import Distribution
 from beal.design.robust import Scenario
 from beal.design.sampling import Method
 from beal.errors import ModelError
-from beal.study.file import SolveEntry
-from beal.vehicle.base import Part, si
+from beal.study.file import Given, SolveEntry, number
+from beal.vehicle.base import Part
 
-Number = Annotated[FiniteFloat, si("")]
+Units = Callable[[str], str]  # the unit in which the quantity at a path is kept
+Scatter = tuple[dict[str, Distribution], dict[str, tuple[float, float]]]
 
 
 class _Law(Part):
@@ -26,41 +28,41 @@ class Normal(_Law):
     """Mean, and standard deviation or coefficient of variation."""
 
     distribution: Literal["normal"]
-    mean: Number
-    sd: Number | None = None
-    cv: Number | None = None
+    mean: Given
+    sd: Given | None = None
+    cv: FiniteFloat | None = None
 
 
 class Lognormal(_Law):
     """Median and coefficient of variation."""
 
     distribution: Literal["lognormal"]
-    median: Number
-    cv: Number
+    median: Given
+    cv: FiniteFloat
 
 
 class Uniform(_Law):
     """Two ends."""
 
     distribution: Literal["uniform"]
-    low: Number
-    high: Number
+    low: Given
+    high: Given
 
 
 class Triangular(_Law):
     """Two ends and the peak."""
 
     distribution: Literal["triangular"]
-    low: Number
-    mode: Number
-    high: Number
+    low: Given
+    mode: Given
+    high: Given
 
 
 class Measured(_Law):
     """Values, or a CSV file and the name of its column."""
 
     distribution: Literal["samples"]
-    values: tuple[Number, ...] | None = None
+    values: tuple[Given, ...] | None = None
     file: str | None = None
     column: str | None = None
 
@@ -72,7 +74,7 @@ class PairEntry(Part):
     """Correlation of two quantities."""
 
     between: tuple[str, str]
-    value: Number
+    value: FiniteFloat
 
 
 class CorrelationEntry(Part):
@@ -99,15 +101,15 @@ class SamplingEntry(Part):
 class ScenarioEntry(Part):
     """A ``[scenario.NAME]`` table."""
 
-    multiply: dict[str, Number] = Field(default_factory=dict)
-    replace: dict[str, Number] = Field(default_factory=dict)
+    multiply: dict[str, FiniteFloat] = Field(default_factory=dict)
+    replace: dict[str, Given] = Field(default_factory=dict)
 
 
 class ToleranceEntry(Part):
     """Ends of the values of a quantity."""
 
-    low: Number
-    high: Number
+    low: Given
+    high: Given
 
 
 class ScatterEntry(Part):
@@ -122,52 +124,59 @@ class ScatterEntry(Part):
     solve: SolveEntry = SolveEntry()
 
     @property
-    def tolerances(self) -> dict[str, tuple[float, float]]:
-        """Ends by path."""
-        return {path: (ends.low, ends.high) for path, ends in self.tolerance.items()}
-
-    @property
     def scenarios(self) -> tuple[Scenario, ...]:
         """The named imperfections."""
         return tuple(Scenario(name, case.multiply, case.replace) for name, case in self.scenario.items())
 
+    def scatter(self, folder: Path, unit: Units) -> Scatter:
+        """Distributions and tolerances by path; files of measured values are looked for in a folder.
 
-def distributions(laws: Mapping[str, LawEntry], folder: Path) -> dict[str, Distribution]:
-    """The laws by path; files of measured values are looked for in a folder.
+        Raises
+        ------
+        ModelError
+            With every problem of every quantity.
+        """
+        laws, tolerances, bad = {}, {}, []
+        for path, law in self.uncertain.items():
+            try:
+                laws[path] = _distribution(law, folder, partial(_number, unit, path))
+            except ModelError as error:
+                bad += [(f"uncertain.{path}.{where}", message) for where, message in error.problems]
+            except ValueError as error:
+                bad.append((f"uncertain.{path}", str(error)))
+        for path, ends in self.tolerance.items():
+            try:
+                tolerances[path] = (_number(unit, path, ends.low), _number(unit, path, ends.high))
+            except ValueError as error:
+                bad.append((f"tolerance.{path}", str(error)))
+        if bad:
+            raise ModelError(bad)
+        return laws, tolerances
 
-    Raises
-    ------
-    ModelError
-        With every problem of every law.
-    """
-    found, bad = {}, []
-    for name, law in laws.items():
-        try:
-            found[name] = _distribution(law, folder)
-        except ModelError as error:
-            bad += [(f"uncertain.{name}.{where}", message) for where, message in error.problems]
-    if bad:
-        raise ModelError(bad)
-    return found
+
+def _number(unit: Units, path: str, given: float | str) -> float:
+    return number(given, unit(path)) if isinstance(given, str) else given
 
 
-def _distribution(law: LawEntry, folder: Path) -> Distribution:
+def _distribution(law: LawEntry, folder: Path, of: Callable[[float | str], float]) -> Distribution:
     match law:
         case Normal(mean=mean, sd=sd, cv=cv):
             if (sd is None) == (cv is None):
                 raise ModelError([("sd", "give either sd or cv")])
-            return Distribution.normal(mean, abs(mean) * cv if cv is not None else sd or 0.0, law.truncate)
+            middle = of(mean)
+            return Distribution.normal(middle, abs(middle) * cv if cv is not None else of(sd or 0.0), law.truncate)
         case Lognormal(median=median, cv=cv):
-            return Distribution.lognormal(median, cv, law.truncate)
+            return Distribution.lognormal(of(median), cv, law.truncate)
         case Uniform(low=low, high=high):
-            return Distribution.uniform(low, high, law.truncate)
+            return Distribution.uniform(of(low), of(high), law.truncate)
         case Triangular(low=low, mode=mode, high=high):
-            return Distribution.triangular(low, mode, high, law.truncate)
+            return Distribution.triangular(of(low), of(mode), of(high), law.truncate)
         case Measured(values=values, file=file, column=column):
             if (values is None) == (file is None) or (file is None) != (column is None):
                 raise ModelError([("values", "give either values or both of file and column")])
-            measured = values if values is not None else _column(folder / str(file), str(column))
-            return Distribution.of_samples(measured, law.truncate)
+            if values is None:
+                return Distribution.of_samples(_column(folder / str(file), str(column)), law.truncate)
+            return Distribution.of_samples([of(value) for value in values], law.truncate)
 
 
 def _column(path: Path, name: str) -> tuple[float, ...]:

@@ -2,19 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from beal.design.robust import Scenario
 from beal.design.sampling import Method
-from beal.design.scatter_file import LawEntry, ScatterEntry, distributions
+from beal.design.scatter_file import LawEntry, ScatterEntry
 from beal.design.uncertain import Uncertain
 from beal.errors import ModelError
 from beal.interop.files import load
 from beal.study.study import Solve
 from beal.vehicle.base import problems
 from beal.vehicle.file import read_toml
+from beal.vehicle.paths import unit_at
 from beal.vehicle.vehicle import Vehicle
 
 
@@ -74,11 +76,11 @@ def load_uncertainty(path: str | Path) -> UncertaintyStudy:
         raise ModelError([(f"{path}: {where}", message) for where, message in found]) from None
     vehicle = load(folder / entry.model)
     try:
-        laws = distributions(entry.uncertain, folder)
+        laws, tolerances = entry.scatter(folder, partial(unit_at, vehicle))
         uncertain = Uncertain(vehicle, laws, entry.correlation.by_pair(), entry.correlation.measure)
     except ModelError as error:
         raise ModelError(error.problems, str(path)) from None
     draw, solve = entry.sampling, entry.solve.solve
     return UncertaintyStudy(
-        vehicle, uncertain, draw.samples, draw.method, draw.seed, entry.tolerances, entry.scenarios, solve
+        vehicle, uncertain, draw.samples, draw.method, draw.seed, tolerances, entry.scenarios, solve
     )

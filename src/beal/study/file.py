@@ -51,8 +51,8 @@ class AxisEntry(Part):
     def resolved(self, unit: str) -> tuple[float, ...]:
         """The values along the axis of a quantity that is kept in a unit."""
         if self.values is not None:
-            return tuple(_number(value, unit) for value in self.values)
-        start, stop = (_number(end or 0.0, unit) for end in (self.start, self.stop))
+            return tuple(number(value, unit) for value in self.values)
+        start, stop = (number(end or 0.0, unit) for end in (self.start, self.stop))
         if not (math.isfinite(start) and math.isfinite(stop)):
             raise ValueError(f"from and to must be finite, found {start} and {stop}")
         if self.spacing == "log" and min(start, stop) <= 0:
@@ -60,7 +60,8 @@ class AxisEntry(Part):
         return spaced(start, stop, self.points or 0, self.spacing)
 
 
-def _number(given: float | str, unit: str) -> float:
+def number(given: float | str, unit: str) -> float:
+    """A value of a study file in the unit in which its quantity is kept; ValueError where it has another dimension."""
     return to_si(given, unit) if isinstance(given, str) else float(given)
 
 
