@@ -3,8 +3,10 @@
 import ast
 import base64
 import json
+import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import anyio
@@ -12,15 +14,17 @@ import httpx
 import numpy as np
 import pytest
 import schemathesis
+from anyio.from_thread import start_blocking_portal
 from hypothesis import HealthCheck, settings
 
 import beal
 from beal.interop.files import content
 from beal.vehicle import catalog
-from beal.web.app import LONGEST, QUESTIONS, application
+from beal.web.app import LONGEST, application
 from beal.web.examples import EXAMPLES, example_text
 from beal.web.guard import LARGEST
 from beal.web.openapi import description
+from beal.web.worker import QUESTIONS
 
 ADDRESS = "http://127.0.0.1:8000"
 KR, KS = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
@@ -31,13 +35,21 @@ APP = application()
 pytestmark = pytest.mark.filterwarnings("ignore::beal.motion.AliasingWarning")
 
 
+@pytest.fixture(scope="module", autouse=True)
+def loop():
+    """One event loop for all questions, which keeps the processes that answer."""
+    global portal
+    with start_blocking_portal() as portal:
+        yield
+
+
 def request(method, path, **options):
     async def sent():
         transport = httpx.ASGITransport(app=APP)
         async with httpx.AsyncClient(transport=transport, base_url=ADDRESS) as client:
             return await client.request(method, path, **options)
 
-    return anyio.run(sent)
+    return portal.call(sent)
 
 
 def ask(name, /, **question):
@@ -79,6 +91,21 @@ def test_one_move_of_a_slider_gives_verdict_curves_and_shapes():
     beta, ratio = 4.7300407449, 0.98250221
     exact = np.cosh(beta * x) + np.cos(beta * x) - ratio * (np.sinh(beta * x) + np.sin(beta * x))
     assert first / first[0] == pytest.approx(exact / exact[0], abs=1e-6)
+
+
+@pytest.mark.parametrize(("name", "tolerance"), [("tsto", 1e-6), ("generic_small_launcher", 2e-3)])
+def test_a_draft_is_near_the_answer(name, tolerance):
+    text = example_text(name)
+    answer = ask("solve", model=text)
+    rough = ask("draft", model=text, to=answer["curve"]["thrust"][-1])
+    there = [row[:3] for row in answer["curve"]["angular_frequency"][::2]]
+    highest = max(map(max, there))
+    assert [row[:3] for row in rough["curve"]["angular_frequency"]] == pytest.approx(
+        np.array(there), abs=tolerance * highest
+    )
+    assert rough["shapes"]["angular_frequency"][:3] == pytest.approx(
+        answer["shapes"]["angular_frequency"][:3], rel=tolerance
+    )
 
 
 def test_a_joint_that_slides_shows_both_of_its_faces():
@@ -274,20 +301,54 @@ def test_a_large_body_is_refused():
     assert reply.status_code == 413
 
 
-def test_an_answer_that_takes_too_long_is_given_up(monkeypatch):
-    from beal.web import answers, app
+STAGE = {"length": 0.02, "mass_per_length": 1.0, "bending_stiffness": 1.0, "internal_damping": 0.001}
+SLOW = {"units": "nondimensional", "stage": [STAGE] * 50, "joint": [{"rotational_stiffness": 100.0}] * 49}
+SLOW["damping"] = {"ratios": [0.01]}  # which needs dense matrices: half a minute
+CHILDREN = Path(f"/proc/{os.getpid()}/task")
 
-    def slow(question):
-        import time
 
-        time.sleep(0.3)
-        return answers.model(question)
+def processes():
+    """The processes that answer, by their numbers."""
+    return {number for thread in CHILDREN.iterdir() for number in (thread / "children").read_text().split()}
 
-    monkeypatch.setattr(app, "LONGEST", 0.05)
-    monkeypatch.setitem(QUESTIONS, "model", (QUESTIONS["model"][0], slow))
-    problems = refused("model", status=503, model=TSTO + "# slow")
-    assert "took longer" in problems[0][1]
-    assert LONGEST <= 30
+
+def test_answers_that_take_too_long_are_ended_and_the_next_is_soon_there(monkeypatch):
+    ask("model", model=TSTO)
+    before = processes() if CHILDREN.exists() else set()
+    monkeypatch.setattr("beal.web.app.LONGEST", 0.5)
+    for _ in range(2 * (os.cpu_count() or 1) + 1):
+        assert "took longer" in refused("solve", status=503, model=SLOW)[0][1]
+    monkeypatch.undo()
+    began = time.monotonic()
+    assert ask("critical", model=TSTO)["kind"] == "flutter"
+    assert time.monotonic() - began < 10 < LONGEST <= 30
+    if CHILDREN.exists():
+        assert len(processes() - before) <= 1
+        assert before - processes()  # the one that worked on it is gone
+
+
+def test_an_answer_that_nobody_waits_for_is_ended():
+    async def left():
+        """Asks, and hangs up after a second."""
+        body = json.dumps({"model": SLOW}).encode()
+        messages = iter([{"type": "http.request", "body": body}])
+        began = time.monotonic()
+
+        async def receive():
+            if message := next(messages, None):
+                return message
+            await anyio.sleep(max(0.0, 1.0 + began - time.monotonic()))
+            return {"type": "http.disconnect"}
+
+        async def send(message):
+            pass
+
+        headers = [(b"host", b"127.0.0.1:8000"), (b"content-type", b"application/json")]
+        scope = {"type": "http", "method": "POST", "path": "/api/solve", "headers": headers, "query_string": b""}
+        await APP(scope, receive, send)
+        return time.monotonic() - began
+
+    assert portal.call(left) < 5
 
 
 @pytest.mark.parametrize("path", ["/static/../app.py", "/static/%2e%2e/app.py", "/static//etc/passwd", "/nothing"])

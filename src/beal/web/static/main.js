@@ -8,6 +8,7 @@ import { StabilityMap } from "./map.js";
 import { named, parsed, short } from "./numbers.js";
 import { State } from "./state.js";
 
+const SLOW = 80; // ms of an answer, above which a draft comes first
 const REST = 150; // ms without a change until the quantities are asked for again
 const byId = (id) => document.getElementById(id);
 const state = new State(changed);
@@ -39,16 +40,31 @@ const models = new Latest("model", (answer, asked) => {
   slower();
 }, refused);
 
+const isNow = ({ to, ...asked }) => JSON.stringify(asked) === JSON.stringify({ ...question(), thrust: state.now.thrust });
+
 const solutions = new Latest("solve", (answer, asked) => {
+  if (drafts.took && !isNow(asked)) return; // a draft of something newer is drawn
   solved = answer;
-  solved.asked = performance.now();
   problems([]);
   verdict();
-  motionShown(asked.thrust);
+  curvesShown();
+}, refused);
+
+// Of a vehicle that takes its time, the curves come before the verdict.
+const drafts = new Latest("draft", (answer, asked) => {
+  solved = { ...solved, ...answer, critical: { critical_thrust: null } };
+  problems([]);
+  byId("verdict").classList.add("waiting");
+  curvesShown();
+  if (isNow(asked)) solutions.ask({ ...question(), thrust: state.now.thrust });
+}, refused);
+
+function curvesShown() {
+  motionShown();
   charts.curve(solved, thrustNow());
   requestAnimationFrame(locus);
   document.querySelector("main").classList.remove("stale");
-}, refused);
+}
 
 const motions = new Latest("response", (answer) => {
   byId("response-error").textContent = "";
@@ -77,7 +93,12 @@ function changed(part) {
   if ("axes" in part && model) axesOffered();
   const vehicle = ["model", "values", "choices", "formulation", "thrust"].some((name) => name in part);
   if (vehicle) {
-    solutions.ask({ ...question(), thrust: now.thrust });
+    const asked = { ...question(), thrust: now.thrust };
+    if (solved && !("model" in part) && solutions.took > SLOW) drafts.ask({ ...asked, to: solved.curve.thrust.at(-1) });
+    else {
+      drafts.took = 0;
+      solutions.ask(asked);
+    }
     map.stop();
     clearTimeout(resting);
     resting = setTimeout(() => models.ask(question()), solved ? REST : 0);
