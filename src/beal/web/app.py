@@ -24,6 +24,7 @@ from beal.web.worker import QUESTIONS, answered
 
 LONGEST = 20.0  # seconds that an answer may take
 WATCHED = 0.2  # seconds from one look whether somebody waits for it to the next
+GRACE = 2.0  # seconds for which it may go on when nobody does: to start a process anew takes as long
 ENDED = json.dumps(errors("was ended from outside; ask again")).encode()
 STATIC = Path(str(files("beal.web") / "static"))
 PLOTLY = Path(str(files("plotly") / "package_data" / "plotly.min.js"))
@@ -100,7 +101,7 @@ def _endpoint(name: str, limit: CapacityLimiter) -> Callable[[Request], Awaitabl
 
 
 async def _while_wanted(request: Request, name: str, body: bytes, limit: CapacityLimiter) -> tuple[int, bytes]:
-    """The answer; its process is ended when its time is over, or when nobody waits for it any more."""
+    """The answer; its process is ended when its time is over, or nobody has waited for it for a while."""
     found = (503, ENDED)
     async with anyio.create_task_group() as both:
         both.start_soon(_left, request, both.cancel_scope)
@@ -114,6 +115,7 @@ async def _left(request: Request, answering: CancelScope) -> None:
     """Ends when whoever asked has gone."""
     while not await request.is_disconnected():
         await anyio.sleep(WATCHED)
+    await anyio.sleep(GRACE)
     answering.cancel()
 
 

@@ -57,9 +57,7 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
 @asynccontextmanager
 async def _announced(address: str, browser: bool, ready: Callable[[str], None], app: Starlette) -> AsyncIterator[None]:
     async with create_task_group() as preparing:
-        for name, question in _first_questions().items():
-            body = question.model_dump_json().encode()
-            preparing.start_soon(partial(to_process.run_sync, cancellable=True), answered, name, body)
+        preparing.start_soon(_prepared)
         ready(address)
         if browser:
             webbrowser.open(address)
@@ -67,9 +65,15 @@ async def _announced(address: str, browser: bool, ready: Callable[[str], None], 
         preparing.cancel_scope.cancel()
 
 
-def _first_questions() -> dict[str, Question]:
-    """What starts the processes that answer, and compiles the kernels of maps the first time on this machine."""
-    axes = ("joint[0].rotational_stiffness", "joint[0].shear_stiffness")
-    points = tuple((10.0**n, 10.0**n) for n in range(1, 6))
+async def _prepared() -> None:
+    """Starts the processes that the first page needs, then compiles the kernels of maps where they are not yet."""
     model = example_text("tsto")
-    return {"solve": Solve(model=model), "map": Map(model=model, axes=axes, points=points)}
+    async with create_task_group() as both:
+        for points in (2, 3):
+            both.start_soon(_asked, "solve", Solve(model=model, points=points))
+    axes = ("joint[0].rotational_stiffness", "joint[0].shear_stiffness")
+    await _asked("map", Map(model=model, axes=axes, points=tuple((10.0**n, 10.0**n) for n in range(1, 6))))
+
+
+async def _asked(name: str, question: Question) -> None:
+    await to_process.run_sync(answered, name, question.model_dump_json().encode(), cancellable=True)
