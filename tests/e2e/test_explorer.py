@@ -238,11 +238,27 @@ def test_files_are_opened_by_drop(page):
     says(page, "20.0509536")
     drop(page, "table.csv", content(catalog.tsto(0.6, 5000.0, 5000.0), "table.csv"))
     says(page, "106.437231")
+    drop(page, "table.xlsx", content(catalog.tsto(0.8, 1e4, 1e4), "table.xlsx"))
+    says(page, "108.59")
+
+
+def test_an_entry_of_a_table_has_a_field(page):
+    taper = {"x": [0.0, 1.0], "value": [1.0, 1.0]}
+    column = {"length": 1.0, "mass_per_length": 1.0, "bending_stiffness": taper}
+    vehicle = beal.Vehicle(stages=[column], support={"nose": "clamped"}, units="nondimensional")
+    drop(page, "taper.toml", beal.dumps(vehicle).encode())
+    says(page, "20.0509536")
+    page.locator("summary", has_text="Stage 1 bending stiffness").click()
+    put(page, "#q-stage-0-bending_stiffness-value-1-", "0.5")
+    softer = {"x": [0.0, 1.0], "value": [1.0, 0.5]}
+    vehicle = vehicle.model_copy(update={"stages": [{**column, "bending_stiffness": softer}]})
+    says(page, f"{beal.critical_thrust(vehicle).critical_thrust:.9g}")
 
 
 @pytest.mark.parametrize(
     ("name", "data", "reason"),
     [
+        ("no.xlsx", b"PK no workbook", "xlsx"),
         ("notes.txt", b"hello", "must end with .toml"),
         ("broken.toml", b"[[stage]]\nlength = -1\n", "stage[0].length: must be greater than 0"),
         ("empty.bdf", b"", "CBAR"),

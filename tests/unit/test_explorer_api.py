@@ -149,6 +149,20 @@ def test_every_quantity_has_a_slider_that_holds_it(name):
         assert value in (None, "inf") or low <= value <= high, quantity
 
 
+def test_entries_of_tables_and_damping_ratios_have_sliders():
+    text = example_text("generic_small_launcher") + "\n[damping]\nratios = [0.01, 0.005]\n"
+    fields = {item["path"]: item for item in ask("model", model=text)["quantities"]}
+    entry = fields["stage[0].bending_stiffness.value[1]"]
+    assert (entry["name"], entry["unit"], entry["value"]) == ("at 0.1 m", "N*m^2", 226082.0)
+    assert fields["damping.ratios[1]"]["value"] == 0.005
+    changed = ask("model", model=text, values={"stage[0].bending_stiffness.value[1]": 3e5, "damping.ratios[0]": 0.02})
+    vehicle = beal.loads(changed["model"])
+    assert vehicle.stages[0].bending_stiffness.value[:2] == (59266.0, 3e5)
+    assert vehicle.damping.ratios == (0.02, 0.005)
+    wrong = {"stage[0].bending_stiffness.value[1]": -1.0}
+    assert refused("model", model=text, values=wrong)[0][0] == "stage[0].bending_stiffness.value[1]"
+
+
 def test_units_stand_beside_the_quantities():
     units = {
         item["path"]: item["unit"] for item in ask("model", model=example_text("generic_small_launcher"))["quantities"]
@@ -199,7 +213,7 @@ def test_a_title_cannot_leave_its_quotes():
     assert beal.loads(model_in(exported["python"])) == vehicle
 
 
-@pytest.mark.parametrize("ending", [".toml", ".csv", ".bdf"])
+@pytest.mark.parametrize("ending", [".toml", ".csv", ".bdf", ".xlsx"])
 def test_files_that_are_dropped_are_read(ending):
     vehicle = catalog.tsto(0.6, 10.0, 20.0)
     file = base64.b64encode(content(vehicle, f"vehicle{ending}")).decode()

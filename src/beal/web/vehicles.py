@@ -18,12 +18,13 @@ from beal.interop.nastran import Imported
 from beal.vehicle.base import Part
 from beal.vehicle.file import dumps, loads, reading_only, vehicle_from
 from beal.vehicle.parts import HeldEnd, ShearAxis, Thrust
-from beal.vehicle.paths import paths, unit_at, value_at, with_values
+from beal.vehicle.paths import entries, paths, unit_at, value_at, with_values
 from beal.vehicle.summary import summary
 from beal.vehicle.vehicle import Vehicle
 from beal.web.questions import Dropped, Question
 
 NOMINAL = "thrust.nominal"
+ENTRIES = 200  # of tables, beyond which a page is too long to be of use
 STAGES = 60  # beyond this an answer takes seconds
 SPRINGS = {"rotational_stiffness": 1, "shear_stiffness": -1, "translation": -1, "rotation": 1}  # EI/L^2 L^n
 CHOICES: dict[str, tuple[str, ...]] = {
@@ -116,7 +117,8 @@ def described(vehicle: Vehicle) -> dict[str, Any]:
 
 def controls(base: Vehicle, vehicle: Vehicle) -> dict[str, Any]:
     """The sliders and choices of a vehicle; their ranges are those of the vehicle before any was moved."""
-    return {"quantities": list(_quantities(base, vehicle)), "choices": _choices(vehicle)}
+    quantities = [*_quantities(base, vehicle), *_entries(base, vehicle)]
+    return {"quantities": quantities, "choices": _choices(vehicle)}
 
 
 def _quantities(base: Vehicle, vehicle: Vehicle) -> Iterator[dict[str, Any]]:
@@ -139,6 +141,31 @@ def _quantities(base: Vehicle, vehicle: Vehicle) -> Iterator[dict[str, Any]]:
             "to": high,
             "scale": scale,
             "may_be_rigid": name in SPRINGS or name in ("bending_stiffness", "shear_stiffness"),
+        }
+
+
+def _entries(base: Vehicle, vehicle: Vehicle) -> Iterator[dict[str, Any]]:
+    """The values in tables, each named by its station, and damping ratios."""
+    there = entries(base)
+    for path in there if len(there) <= ENTRIES else ():
+        place, index = path.rsplit("[", 1)[0], int(path[:-1].rsplit("[", 1)[1])
+        if place == "damping.ratios":
+            name, low, high, scale = f"mode {index + 1}", 0.0, max(0.1, 4 * value_at(base, path)), "linear"
+        else:
+            x = value_at(vehicle, f"{place.removesuffix('value')}x[{index}]")
+            name = f"at {x:.6g}{' m' if vehicle.units == 'SI' else ''}"
+            given = value_at(base, path)
+            low, high, scale = (given / 10, 10 * given, "log") if given > 0 else (0.0, 1.0, "linear")
+        yield {
+            "path": path,
+            "name": name,
+            "value": value_at(vehicle, path),
+            "unit": unit_at(base, path),
+            "from": low,
+            "to": high,
+            "scale": scale,
+            "may_be_rigid": False,
+            "entry": True,
         }
 
 

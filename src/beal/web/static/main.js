@@ -203,7 +203,7 @@ function axesOffered() {
   const axes = mapAxes();
   for (const [n, id] of ["map-x", "map-y"].entries()) {
     const list = byId(id);
-    const paths = model.quantities.map(({ path }) => path).filter((path) => path !== "thrust.nominal");
+    const paths = model.quantities.filter(({ path, entry }) => path !== "thrust.nominal" && !entry).map(({ path }) => path);
     if (list.dataset.paths !== paths.join()) {
       list.dataset.paths = paths.join();
       list.replaceChildren(...paths.map((path) => element("option", { value: path }, named(path))));
