@@ -137,6 +137,44 @@ def test_a_control_law_has_a_locus():
     assert refused("locus", model=TSTO, at=[0.0, 1.0])[0][0] == "control"
 
 
+def test_a_flight_in_parts_is_that_of_the_command():
+    text = example_text("generic_small_launcher")
+    parts = [ask("flight", model=text, first=first, count=2) for first in (0, 2)]
+    vehicle = beal.loads(text)
+    times = vehicle.timeline.time
+    same = beal.flight(vehicle, modes=3)
+    assert [part["times"] for part in parts] == 2 * [len(times)]
+    assert parts[0]["time"] + parts[1]["time"] == list(times[:4])
+    found = [value for part in parts for value in part["margin"]]
+    assert np.array(found, dtype=float) == pytest.approx(same.margin[:4], rel=1e-9, nan_ok=True)
+    assert refused("flight", model=text, first=len(times))[0][0] == "first"
+    assert refused("flight", model=TSTO)[0][0] == "timeline"
+
+
+def test_a_pulsating_thrust_is_judged_as_by_the_command():
+    found = ask("pulsation", model=TSTO, thrust=30.0, angular_frequencies=[40.0, 45.0, 50.0], amplitudes=[0.0, 20.0])
+    same = [[beal.floquet(beal.loads(TSTO), 30.0, P, w, 6) for P in (0.0, 20.0)] for w in (40.0, 45.0, 50.0)]
+    assert found["stable"] == [[each.stable for each in row] for row in same]
+    assert np.array(found["largest_modulus"]) == pytest.approx(
+        np.array([[each.largest_modulus for each in row] for row in same]), rel=1e-6
+    )
+
+
+def test_margins_of_the_loop_are_those_of_the_command_and_lie_on_the_curve():
+    gains = "[{sensor = 'imu', quantity = 'slope', gain = 0.5}, {sensor = 'imu', quantity = 'slope_rate', gain = 0.2}]"
+    found = ask("loop", model=f"{TSTO}[control]\nlag = 0.02\ngains = {gains}\n", thrust=10.0)
+    vehicle = beal.loads(f"{TSTO}[control]\nlag = 0.02\ngains = {gains}\n")
+    margins = beal.stability_margins(vehicle, 10.0)
+    assert [each["factor"] for each in found["margins"]["gain"]] == pytest.approx(
+        [each.factor for each in margins.gain]
+    )
+    curve = found["open_loop"]
+    size = np.hypot(*np.transpose(curve["value"]))
+    phase = found["margins"]["phase"][0]["angular_frequency"]
+    assert np.interp(phase, curve["angular_frequency"], size) == pytest.approx(1.0, rel=0.01)
+    assert refused("loop", model=TSTO, thrust=10.0)[0][0] == "control"
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_every_quantity_has_a_slider_that_holds_it(name):
     found = ask("model", model=example_text(name))

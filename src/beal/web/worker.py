@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from beal.errors import ConvergenceError, ModelError
 from beal.report.numbers import plain
 from beal.vehicle.base import Part, problems
-from beal.web import answers
+from beal.web import answers, further
 from beal.web import questions as ask
 from beal.web.guard import errors
 
@@ -29,6 +29,9 @@ QUESTIONS: dict[str, tuple[type[Part], Answering]] = {
     "map": (ask.Map, answers.map_points),
     "response": (ask.Response, answers.response),
     "locus": (ask.Locus, answers.locus),
+    "flight": (ask.Flight, further.flight),
+    "pulsation": (ask.Pulsation, further.pulsation),
+    "loop": (ask.Loop, further.loop),
     "export": (ask.Curve, answers.code),
 }
 
