@@ -14,6 +14,7 @@ import pytest
 import beal
 from beal.interop.files import content
 from beal.vehicle import catalog
+from beal.web.examples import example_text
 
 playwright = pytest.importorskip("playwright.sync_api")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -229,6 +230,18 @@ def test_a_click_on_the_map_sets_the_vehicle(page):
     page.mouse.click(area["x"] + 12, area["y"] + 20)
     says(page, "Diverges at")
     assert float(page.input_value(KR)) < 5
+
+
+def test_further_charts_are_offered_where_the_vehicle_has_what_they_need(page):
+    until(page, "document.querySelector('#further-kind [value=flight]').disabled")
+    page.select_option("#further-kind", "pulsation")
+    until(page, "document.getElementById('further').data?.[0]?.z.length === 21")
+    page.click("#further-stop")
+    law = "[control]\nlag = 0.02\ngains = [{sensor = 'imu', quantity = 'slope', gain = 0.5}]\n"
+    drop(page, "controlled.toml", (beal.dumps(beal.loads(example_text("tsto"))) + law).encode())
+    until(page, "!document.querySelector('#further-kind [value=loop]').disabled")
+    page.select_option("#further-kind", "loop")
+    until(page, "document.getElementById('further').getAttribute('aria-label').startsWith('Open loop, closed loop')")
 
 
 def test_files_are_opened_by_drop(page):
