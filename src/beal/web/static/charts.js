@@ -41,7 +41,7 @@ export function empty(name, message) {
 
 export function fitted() {
   const resized = new ResizeObserver((places) => {
-    for (const { target } of places) if (target.data) Plotly.Plots.resize(target);
+    for (const { target } of places) if (target.data && !target.hidden) Plotly.Plots.resize(target);
   });
   for (const place of document.querySelectorAll(".plot")) resized.observe(place);
 }
