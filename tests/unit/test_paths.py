@@ -173,3 +173,15 @@ def test_a_single_stage_has_no_split():
         value_at(catalog.beck(), "stage.split")
     with refused("stage.split: needs a vehicle of two stages or more, found one stage"):
         with_values(catalog.beck(), {"stage.split": 0.5})
+
+
+def test_entries_of_tables_are_replaced_before_the_tables_are_stretched():
+    taper = {"x": [0.0, 1.0], "value": [2.0, 1.0]}
+    vehicle = Vehicle(stages=[Stage(length=1.0, mass_per_length=1.0, bending_stiffness=taper)])
+    changed = with_values(vehicle, {"stage[0].length": 3.0, "stage[0].bending_stiffness.value[1]": 5.0})
+    assert changed.stages[0].bending_stiffness.x == (0.0, 3.0)
+    assert changed.stages[0].bending_stiffness.value == (2.0, 5.0)
+    with pytest.raises(ModelError, match=r"value\[1\]: must be greater than 0, found -1"):
+        with_values(vehicle, {"stage[0].bending_stiffness.value[1]": -1.0})
+    with pytest.raises(ModelError, match="index out of range"):
+        with_values(vehicle, {"stage[0].bending_stiffness.value[2]": 1.0})

@@ -58,6 +58,7 @@ def control(
     from beal.control import closed_loop, control_locus, controlled_thrust, open_loop, stability_margins, state_space
     from beal.interop import results
     from beal.interop.files import load, write_result
+    from beal.report.records import control_record
 
     if plant and plant.suffix.lower() not in STATE_SPACE:
         known = " or ".join(STATE_SPACE)
@@ -99,15 +100,8 @@ def control(
     if as_json:
         emit(
             {
-                "thrust": found.thrust,
-                "roots": _pairs(found.roots),
-                "stable": found.stable,
-                "rigid_body_roots": _pairs(found.rigid_body_roots),
-                "least_damped": _least(found),
-                "margins": _margins(margins),
+                **control_record(vehicle, found, margins),
                 **({"critical": asdict(critical)} if critical else {}),
-                "error_estimate": found.error_estimate,
-                "units": vehicle.units,
                 "file": str(output) if output else None,
                 "state_space": str(plant) if plant else None,
                 **named(figure, report),
@@ -145,25 +139,6 @@ def _values(vehicle: "Vehicle", over: str, to: float | None, thrust: float) -> "
     if not math.isfinite(end) or end == start:
         raise ModelError(f"--to: must be a finite number other than the first, {start:g}, found {end:g}")
     return [start + (end - start) * n / (POINTS - 1) for n in range(POINTS)]
-
-
-def _least(found: "ClosedLoop") -> dict[str, Any]:
-    root = found.least_damped
-    return {
-        "root": [root.real, root.imag],
-        "angular_frequency": abs(root.imag),
-        "damping_ratio": -root.real / abs(root) if root else 0.0,
-    }
-
-
-def _margins(found: "Margins") -> dict[str, Any]:
-    gain = [{**asdict(margin), "decibel": margin.decibel} for margin in found.gain]
-    phase = [{**asdict(margin), "delay": margin.delay} for margin in found.phase]
-    return {"gain": gain, "phase": phase}
-
-
-def _pairs(roots: Any) -> Any:
-    return [[root.real, root.imag] for root in roots.tolist()]
 
 
 def _columns(found: "ClosedLoop") -> dict[str, Any]:

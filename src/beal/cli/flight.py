@@ -11,6 +11,7 @@ from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Model
 from beal.cli.output import emit, new_file, note, progress_bar, show_table, write_columns
 from beal.report.numbers import cell
+from beal.report.records import flight_record, stage_range
 
 if TYPE_CHECKING:
     from beal.study.flight import Flight, FlightState
@@ -39,7 +40,7 @@ def flight(
         with new_file(table) as file:
             write_columns(file, _columns(found))
     if as_json:
-        emit({**_data(found), "units": found.units, **named(figure)})
+        emit({**flight_record(found), **named(figure)})
     else:
         _show(found)
         if table:
@@ -48,34 +49,14 @@ def flight(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _data(found: "Flight") -> dict[str, Any]:
-    """One list for each quantity, an entry for each time."""
-    omega = found.angular_frequency
-    return {
-        "time": found.time,
-        "thrust": found.thrust,
-        "mass": found.mass,
-        "stages": [_stages(state) for state in found.states],
-        "angular_frequency": omega,
-        **({"frequency_hz": omega / (2 * math.pi)} if found.units == "SI" else {}),
-        "critical_thrust": found.critical_thrust,
-        "kind": [state.critical and state.critical.kind for state in found.states],
-        "modes": [state.critical and state.critical.modes for state in found.states],
-        "error_estimate": [state.critical and state.critical.error_estimate for state in found.states],
-        "searched_to": found.searched_to,
-        "margin": found.margin,
-        "margin_is_lower_bound": found.at_least,
-        "status": [state.status for state in found.states],
-        "reason": [state.reason for state in found.states],
-    }
-
-
 def _columns(found: "Flight") -> dict[str, Any]:
     """The same with a column for each mode, and nothing where there is no number."""
     import numpy as np
 
     columns: dict[str, Any] = {}
-    for name, values in _data(found).items():
+    for name, values in flight_record(found).items():
+        if name == "units":
+            continue
         if name == "modes":
             for place, end in enumerate(("mode_low", "mode_high")):
                 columns[end] = [pair and pair[place] for pair in values]
@@ -106,7 +87,7 @@ def _show(found: "Flight") -> None:
             state.time,
             state.mass,
             state.thrust,
-            *([_stages(state)] if staged else []),
+            *([stage_range(state)] if staged else []),
             *(_known(omega / scale) for omega in frequencies),
             state.critical and state.critical.critical_thrust,
             _instability(state),
@@ -118,11 +99,6 @@ def _show(found: "Flight") -> None:
     for reason in dict.fromkeys(state.reason for state in found.states if state.reason):
         times = ", ".join(cell(state.time) for state in found.states if state.reason == reason)
         print(f"at {times}: {reason}")
-
-
-def _stages(state: "FlightState") -> str:
-    first, last = state.stages
-    return f"{first}" if first == last else f"{first}-{last}"
 
 
 def _instability(state: "FlightState") -> str:

@@ -4,13 +4,16 @@ import math
 from dataclasses import asdict
 from typing import Any
 
+from beal.control import ClosedLoop, Margins
 from beal.design.reliability import probability_of_instability, thrust_quantile
 from beal.design.sampling import Sample
 from beal.motion import PARTS, QUANTITIES, Response
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust
 from beal.stability.curve import ThrustCurve
+from beal.stability.pencil import ComplexArray
 from beal.stability.spectrum import Spectrum
+from beal.study.flight import Flight, FlightState
 from beal.study.store import KINDS
 from beal.vehicle.vehicle import Vehicle
 
@@ -150,3 +153,70 @@ def response_record(vehicle: Vehicle, found: Response, growth: float | None) -> 
         "growth_rate": growth,
         "units": vehicle.units,
     }
+
+
+def flight_record(found: Flight) -> dict[str, Any]:
+    """What ``beal flight --json`` says: one list for each quantity, an entry for each time."""
+    omega = found.angular_frequency
+    return {
+        "time": found.time,
+        "thrust": found.thrust,
+        "mass": found.mass,
+        "stages": [stage_range(state) for state in found.states],
+        "angular_frequency": omega,
+        **({"frequency_hz": omega / (2 * math.pi)} if found.units == "SI" else {}),
+        "critical_thrust": found.critical_thrust,
+        "kind": [state.critical and state.critical.kind for state in found.states],
+        "modes": [state.critical and state.critical.modes for state in found.states],
+        "error_estimate": [state.critical and state.critical.error_estimate for state in found.states],
+        "searched_to": found.searched_to,
+        "margin": found.margin,
+        "margin_is_lower_bound": found.at_least,
+        "status": [state.status for state in found.states],
+        "reason": [state.reason for state in found.states],
+        "units": found.units,
+    }
+
+
+def stage_range(state: FlightState) -> str:
+    """The stages attached, as the model file names them: ``1-2``."""
+    first, last = state.stages
+    return f"{first}" if first == last else f"{first}-{last}"
+
+
+def control_record(vehicle: Vehicle, found: ClosedLoop, margins: Margins) -> dict[str, Any]:
+    """What ``beal control --json`` says.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    found : ClosedLoop
+    margins : Margins
+
+    Returns
+    -------
+    dict
+    """
+    root = found.least_damped
+    least = {
+        "root": [root.real, root.imag],
+        "angular_frequency": abs(root.imag),
+        "damping_ratio": -root.real / abs(root) if root else 0.0,
+    }
+    gain = [{**asdict(margin), "decibel": margin.decibel} for margin in margins.gain]
+    phase = [{**asdict(margin), "delay": margin.delay} for margin in margins.phase]
+    return {
+        "thrust": found.thrust,
+        "roots": pairs(found.roots),
+        "stable": found.stable,
+        "rigid_body_roots": pairs(found.rigid_body_roots),
+        "least_damped": least,
+        "margins": {"gain": gain, "phase": phase},
+        "error_estimate": found.error_estimate,
+        "units": vehicle.units,
+    }
+
+
+def pairs(numbers: ComplexArray) -> list[list[float]]:
+    """Complex numbers as JSON has them: real and imaginary parts, in the same order."""
+    return [[number.real, number.imag] for number in numbers.tolist()]

@@ -29,8 +29,7 @@ def paths(vehicle: Vehicle) -> list[str]:
     Returns
     -------
     list of str
-        In the order of the model file, then ``stage.split`` where there are two stages or more. The entries of
-        tables have no path.
+        In the order of the model file, then ``stage.split`` where there are two stages or more. Not those of `entries`.
 
     Examples
     --------
@@ -39,6 +38,33 @@ def paths(vehicle: Vehicle) -> list[str]:
     ['stage[0].length', 'stage[0].mass_per_length', 'stage[0].bending_stiffness']
     """
     return [*_paths(vehicle, ""), *([SPLIT] if len(vehicle.stages) > 1 else [])]
+
+
+def entries(vehicle: Vehicle) -> list[str]:
+    """Paths of the values in the tables of the stages, and of the damping ratios.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> from beal.vehicle import Stage
+    >>> taper = {"x": [0.0, 1.0], "value": [2.0, 1.0]}
+    >>> entries(Vehicle(stages=[Stage(length=1.0, mass_per_length=1.0, bending_stiffness=taper)]))
+    ['stage[0].bending_stiffness.value[0]', 'stage[0].bending_stiffness.value[1]']
+    """
+    found = [
+        f"stage[{stage}].{name}.value[{n}]"
+        for stage, part in enumerate(vehicle.stages)
+        for name, table in part.tables.items()
+        for n in range(len(table.value))
+    ]
+    return [*found, *(f"damping.ratios[{n}]" for n in range(len(vehicle.damping.ratios)))]
 
 
 def value_at(vehicle: Vehicle, path: str) -> float:
@@ -88,11 +114,13 @@ def unit_at(vehicle: Vehicle, path: str) -> str:
     """
     if path == SPLIT or vehicle.units != "SI":
         return ""
-    *parents, name = _resolved(vehicle, path)
     part: Any = vehicle
-    for step in parents:
-        part = part[step] if isinstance(step, int) else getattr(part, step)
-    field = type(part).model_fields[name]
+    for step in _resolved(vehicle, path):
+        if isinstance(step, int):
+            part = part[step]
+        else:
+            field = type(part).model_fields[step]
+            part = getattr(part, step)
     return unit_of(field.annotation, field.metadata)
 
 
@@ -105,7 +133,8 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     values : mapping of path to number
         ``stage.split`` moves the first joint and keeps the total length of the first two stages; the stations of
         masses, tanks, sensors and forces stay; lengths given beside it are set first. Tables are stretched with the
-        lengths that they describe. In SI, text with a unit is accepted as in the model file.
+        lengths that they describe; of their `entries` each may be replaced. In SI, text with a unit is accepted as in
+        the model file.
 
     Returns
     -------
@@ -125,6 +154,10 @@ def with_values(vehicle: Vehicle, values: Mapping[str, float | str]) -> Vehicle:
     others = {path: value for path, value in values.items() if path != SPLIT}
     if SPLIT in values and any(path.endswith("].length") for path in others):
         return with_values(with_values(vehicle, others), {SPLIT: values[SPLIT]})
+    single = {path: value for path, value in values.items() if path.endswith("]")}
+    if single and len(single) < len(values):  # before the tables are stretched
+        rest = {path: value for path, value in values.items() if path not in single}
+        return with_values(with_values(vehicle, single), rest)
     tree: dict[str | int, Any] = {}
     for path, value in others.items():
         *parents, name = _resolved(vehicle, path)
@@ -183,7 +216,8 @@ def _check_split(vehicle: Vehicle) -> None:
 def _merged(value: Any, tree: dict[str | int, Any]) -> Any:
     """Raw input for the validator: what changes as dictionaries, the rest as the parts that exist already."""
     if isinstance(value, tuple):
-        return tuple(_merged(item, tree[n]) if n in tree else item for n, item in enumerate(value))
+        changed = ((item, tree.get(n, {})) for n, item in enumerate(value))
+        return tuple((_merged(item, to) if to else item) if isinstance(to, dict) else to for item, to in changed)
     fields = {}
     kind: type[Part] = type(value)
     for name, key in _keys(kind).items():
@@ -206,7 +240,7 @@ def _resolved(vehicle: Vehicle, path: str) -> tuple[str | int, ...]:
         steps.append(name)
         value = getattr(owner, name)
         if isinstance(value, tuple):
-            if index is None or any(not isinstance(item, Part) for item in value):
+            if index is None:
                 raise _unknown(vehicle, path)
             if index >= len(value):
                 raise ModelError([(path, f"index out of range: this vehicle has {_count(len(value), key)}")])

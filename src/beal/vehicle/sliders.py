@@ -4,10 +4,11 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from beal.vehicle.paths import paths, unit_at, value_at
+from beal.vehicle.paths import entries, paths, unit_at, value_at
 from beal.vehicle.vehicle import Vehicle
 
 NOMINAL = "thrust.nominal"
+ENTRIES = 200  # of tables, beyond which a page is too long to be of use
 SPRINGS = {"rotational_stiffness": 1, "shear_stiffness": -1, "translation": -1, "rotation": 1}  # EI/L^2 L^n
 
 
@@ -52,6 +53,42 @@ def sliders(base: Vehicle, vehicle: Vehicle) -> Iterator[dict[str, Any]]:
             "to": high,
             "scale": scale,
             "may_be_rigid": name in SPRINGS or name in ("bending_stiffness", "shear_stiffness"),
+        }
+
+
+def entry_sliders(base: Vehicle, vehicle: Vehicle) -> Iterator[dict[str, Any]]:
+    """Sliders for the values in tables, each named by its station, and for damping ratios.
+
+    Parameters
+    ----------
+    base, vehicle : Vehicle
+        As for `sliders`.
+
+    Yields
+    ------
+    dict
+        As `sliders`, and ``entry``; none where there are more than 200.
+    """
+    there = entries(base)
+    for path in there if len(there) <= ENTRIES else ():
+        place, index = path.rsplit("[", 1)[0], int(path[:-1].rsplit("[", 1)[1])
+        if place == "damping.ratios":
+            name, low, high, scale = f"mode {index + 1}", 0.0, max(0.1, 4 * value_at(base, path)), "linear"
+        else:
+            x = value_at(vehicle, f"{place.removesuffix('value')}x[{index}]")
+            name = f"at {x:.6g}{' m' if vehicle.units == 'SI' else ''}"
+            given = value_at(base, path)
+            low, high, scale = (given / 10, 10 * given, "log") if given > 0 else (0.0, 1.0, "linear")
+        yield {
+            "path": path,
+            "name": name,
+            "value": value_at(vehicle, path),
+            "unit": unit_at(base, path),
+            "from": low,
+            "to": high,
+            "scale": scale,
+            "may_be_rigid": False,
+            "entry": True,
         }
 
 

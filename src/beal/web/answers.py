@@ -15,6 +15,7 @@ from beal.report.verdict import convention, searched, shown_to, verdict
 from beal.stability.critical import critical_events, critical_thrust
 from beal.stability.curve import thrust_curve
 from beal.stability.large import is_large
+from beal.stability.limit import default_limit
 from beal.stability.modes import converged_modes
 from beal.stability.spectrum import Spectrum, spectrum
 from beal.study.batch import WORTHWHILE
@@ -23,11 +24,13 @@ from beal.study.store import KINDS, STATUS
 from beal.study.study import Solve, Study
 from beal.vehicle.file import dumps
 from beal.vehicle.paths import value_at
+from beal.vehicle.vehicle import Vehicle
 from beal.web import questions as ask
 from beal.web.code import command_lines, python_lines
 from beal.web.vehicles import base_of, controls, described, opened, vehicle_of
 
 COARSE = 6  # degree on each of many segments: frequencies are good to some 1e-7
+ROUGH, FEW = 3, 31  # of a draft: degree on each of many segments, good to some 1e-3, and points of its curves
 DRAWN = 24  # points of a mode shape in each stage
 Answer = dict[str, Any]
 
@@ -72,26 +75,37 @@ def modes(question: ask.Modes) -> Answer:
     return {**modes_record(vehicle, found, error, question.formulation), "shapes": shapes}
 
 
+def draft(question: ask.Solve) -> Answer:
+    """Curves and mode shapes as ``solve`` gives them, roughly and soon; of large vehicles good to some 0.1 %."""
+    vehicle = vehicle_of(question)
+    to = question.to or default_limit(vehicle)
+    return _seen(question, vehicle, ROUGH, to, min(question.points, FEW))
+
+
 def solve(question: ask.Solve) -> Answer:
     """What a move of a slider changes: the vehicle, its verdict, its curves, and mode shapes at a thrust."""
     vehicle = vehicle_of(question)
     found = critical_thrust(vehicle, None, question.formulation)
     to = question.to or shown_to(found)
-    coarse = is_large(vehicle) and question.formulation not in RITZ
-    operators = discretise(vehicle, question.formulation, order=COARSE if coarse else None)
-    count = min(question.modes, len(operators.M) - operators.rigid)
-    curve = thrust_curve(operators, to, question.points, count, question.formulation)
-    nominal = vehicle.thrust.nominal or 0.0
-    thrust = nominal if question.thrust is None else question.thrust
     return {
-        "vehicle": described(vehicle),
+        **_seen(question, vehicle, COARSE, to, question.points),
         "critical": critical_record(vehicle, found),
         "verdict": verdict(vehicle, found),
         "searched": searched(vehicle, found),
         "convention": convention(vehicle, question.formulation),
-        "curve": curve_record(vehicle, curve),
-        "shapes": _shapes(operators, spectrum(operators, thrust, count)),
     }
+
+
+def _seen(question: ask.Solve, vehicle: Vehicle, order: int, to: float, points: int) -> Answer:
+    """The vehicle, its curves and its shapes; ``order`` is that of vehicles of many segments."""
+    coarse = is_large(vehicle) and question.formulation not in RITZ
+    operators = discretise(vehicle, question.formulation, order=order if coarse else None)
+    count = min(question.modes, len(operators.M) - operators.rigid)
+    curve = thrust_curve(operators, to, points, count, question.formulation)
+    nominal = vehicle.thrust.nominal or 0.0
+    thrust = nominal if question.thrust is None else question.thrust
+    shapes = _shapes(operators, spectrum(operators, thrust, count))
+    return {"vehicle": described(vehicle), "curve": curve_record(vehicle, curve), "shapes": shapes}
 
 
 def map_points(question: ask.Map) -> Answer:

@@ -1,18 +1,14 @@
-"""The server behind the page: every answer in a thread, bounded in time, every refusal as JSON."""
+"""The server behind the page: every answer in a process that can be ended, bounded in time, every refusal as JSON."""
 
 import json
 import os
 from collections.abc import Awaitable, Callable
-from functools import lru_cache
+from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 import anyio
-import numpy as np
-from anyio import CapacityLimiter, to_thread
-from numpy.linalg import LinAlgError
-from pydantic import ValidationError
+from anyio import BrokenWorkerProcess, CancelScope, CapacityLimiter, to_process
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
@@ -21,32 +17,17 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 from starlette.staticfiles import StaticFiles
 
-from beal.errors import ConvergenceError, ModelError
-from beal.report.numbers import plain
-from beal.vehicle.base import Part, problems
-from beal.web import answers
-from beal.web import questions as ask
 from beal.web.examples import EXAMPLES, example_text
 from beal.web.guard import Guard, TooLarge, body_of, errors
 from beal.web.openapi import description
+from beal.web.worker import QUESTIONS, answered
 
 LONGEST = 20.0  # seconds that an answer may take
-KEPT = 20_000  # bytes of a question whose answer is remembered
+WATCHED = 0.2  # seconds from one look whether somebody waits for it to the next
+GRACE = 2.0  # seconds for which it may go on when nobody does: to start a process anew takes as long
+ENDED = json.dumps(errors("was ended from outside; ask again")).encode()
 STATIC = Path(str(files("beal.web") / "static"))
 PLOTLY = Path(str(files("plotly") / "package_data" / "plotly.min.js"))
-Answering = Callable[[Any], dict[str, Any]]
-QUESTIONS: dict[str, tuple[type[Part], Answering]] = {
-    "model": (ask.Question, answers.model),
-    "open": (ask.Dropped, answers.dropped),
-    "solve": (ask.Solve, answers.solve),
-    "critical": (ask.Critical, answers.critical),
-    "curve": (ask.Curve, answers.curve),
-    "modes": (ask.Modes, answers.modes),
-    "map": (ask.Map, answers.map_points),
-    "response": (ask.Response, answers.response),
-    "locus": (ask.Locus, answers.locus),
-    "export": (ask.Curve, answers.code),
-}
 
 
 def application(first: str = "") -> Starlette:
@@ -108,49 +89,34 @@ def _endpoint(name: str, limit: CapacityLimiter) -> Callable[[Request], Awaitabl
         try:
             body = await body_of(request)
             with anyio.fail_after(LONGEST):
-                answer = _remembered if len(body) < KEPT else _answered
-                text = await to_thread.run_sync(answer, name, body, limiter=limit, abandon_on_cancel=True)
+                status, text = await _while_wanted(request, name, body, limit)
         except TooLarge as error:
             return JSONResponse(errors(str(error)), status_code=413)
-        except ModelError as error:
-            return JSONResponse(_told(error), status_code=422)
-        except ConvergenceError as error:
-            return JSONResponse(errors(str(error)), status_code=422)
         except TimeoutError:
             message = f"took longer than {LONGEST:g} s; the command beal has no such limit"
             return JSONResponse(errors(message), status_code=503)
-        return Response(text, media_type="application/json")
+        return Response(text, status, media_type="application/json")
 
     return respond
 
 
-def _answered(name: str, body: bytes) -> bytes:
-    kind, answer = QUESTIONS[name]
-    try:
-        question = kind.model_validate_json(body)
-    except ValidationError as error:
-        raise ModelError(problems(error, kind)) from None
-    try:
-        with np.errstate(all="ignore"):
-            return json.dumps(plain(answer(question)), allow_nan=False).encode()
-    except ModelError:
-        raise
-    except (ArithmeticError, LinAlgError, ValueError) as error:  # of quantities some 1e100 apart
-        raise ModelError(f"cannot be computed, the numbers leave the range: {error}") from None
+async def _while_wanted(request: Request, name: str, body: bytes, limit: CapacityLimiter) -> tuple[int, bytes]:
+    """The answer; its process is ended when its time is over, or nobody has waited for it for a while."""
+    found = (503, ENDED)
+    async with anyio.create_task_group() as both:
+        both.start_soon(_left, request, both.cancel_scope)
+        with suppress(BrokenWorkerProcess):
+            found = await to_process.run_sync(answered, name, body, cancellable=True, limiter=limit)
+        both.cancel_scope.cancel()
+    return found
 
 
-_remembered = lru_cache(maxsize=256)(_answered)
-
-
-def _told(error: ModelError) -> dict[str, list[dict[str, str]]]:
-    """Every problem; of an option its name, with which the message then begins, is the path."""
-    listed = []
-    for path, message in error.problems:
-        option, colon, rest = message.partition(": ")
-        option = option.partition(" ")[0] if option.startswith("formulation ") else option
-        named = not path and colon and option.isidentifier()
-        listed.append({"path": option, "message": rest} if named else {"path": path, "message": message})
-    return {"errors": listed}
+async def _left(request: Request, answering: CancelScope) -> None:
+    """Ends when whoever asked has gone."""
+    while not await request.is_disconnected():
+        await anyio.sleep(WATCHED)
+    await anyio.sleep(GRACE)
+    answering.cancel()
 
 
 async def _http(request: Request, error: Exception) -> Response:

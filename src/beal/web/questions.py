@@ -109,6 +109,30 @@ class Locus(Question):
     modes: Annotated[int, Field(ge=1, le=6)] = 3
 
 
+class Flight(Question):
+    """Margins at some of the times of the vehicle's flight: ``count`` of them from the ``first``, counted from 0."""
+
+    first: Annotated[int, Field(ge=0)] = 0
+    count: Annotated[int, Field(ge=1, le=100)] = 10
+    modes: Count = 3
+
+
+class Pulsation(Question):
+    """Stability under P(t) = P0 + P1 cos(W t) over a grid; P0 is the thrust, by default the nominal one."""
+
+    thrust: Thrust | None = None
+    angular_frequencies: Annotated[tuple[Positive, ...], Field(min_length=1, max_length=61)]
+    amplitudes: Annotated[tuple[Thrust, ...], Field(min_length=1, max_length=61)]
+    modes: Count = 6
+
+
+class Loop(Question):
+    """Margins and frequency response of the control loop."""
+
+    thrust: Thrust | None = None
+    modes: Count = 6
+
+
 class Dropped(Part):
     """A file: its name, whose ending says what it is, and its content in base64."""
 

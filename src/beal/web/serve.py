@@ -1,24 +1,22 @@
 """Running the explorer on this machine."""
 
 import socket
-import warnings
 import webbrowser
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from functools import partial
-from threading import Thread
 
 import uvicorn
+from anyio import create_task_group, to_process
 from starlette.applications import Starlette
 
 from beal.errors import ModelError
-from beal.motion import AliasingWarning
 from beal.vehicle.file import dumps
 from beal.vehicle.vehicle import Vehicle
-from beal.web.answers import map_points
 from beal.web.app import application
 from beal.web.examples import example_text
-from beal.web.questions import Map
+from beal.web.questions import Map, Question, Solve
+from beal.web.worker import answered
 
 HOST = "127.0.0.1"
 
@@ -51,7 +49,6 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
             message = f"{port} cannot be used: {error}; leave it out to take any that is free"
             raise ModelError([("--port", message)]) from None
         address = f"http://{HOST}:{listening.getsockname()[1]}/"
-        warnings.simplefilter("ignore", AliasingWarning)  # of a chart: what it leaves out is finer than its line
         app = application(dumps(vehicle) if vehicle else "")
         app.router.lifespan_context = partial(_announced, address, browser, ready)
         uvicorn.Server(uvicorn.Config(app, log_level="warning", lifespan="on")).run(sockets=[listening])
@@ -59,15 +56,24 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
 
 @asynccontextmanager
 async def _announced(address: str, browser: bool, ready: Callable[[str], None], app: Starlette) -> AsyncIterator[None]:
-    Thread(target=_compile, daemon=True).start()
-    ready(address)
-    if browser:
-        webbrowser.open(address)
-    yield
+    async with create_task_group() as preparing:
+        preparing.start_soon(_prepared)
+        ready(address)
+        if browser:
+            webbrowser.open(address)
+        yield
+        preparing.cancel_scope.cancel()
 
 
-def _compile() -> None:
-    """Solves a small map: where the kernels are compiled for the first time on this machine, that takes a while."""
+async def _prepared() -> None:
+    """Starts the processes that the first page needs, then compiles the kernels of maps where they are not yet."""
+    model = example_text("tsto")
+    async with create_task_group() as both:
+        for points in (2, 3):
+            both.start_soon(_asked, "solve", Solve(model=model, points=points))
     axes = ("joint[0].rotational_stiffness", "joint[0].shear_stiffness")
-    points = tuple((10.0**n, 10.0**n) for n in range(1, 6))
-    map_points(Map(model=example_text("tsto"), axes=axes, points=points))
+    await _asked("map", Map(model=model, axes=axes, points=tuple((10.0**n, 10.0**n) for n in range(1, 6))))
+
+
+async def _asked(name: str, question: Question) -> None:
+    await to_process.run_sync(answered, name, question.model_dump_json().encode(), cancellable=True)

@@ -18,7 +18,7 @@ from beal.vehicle.base import Part
 from beal.vehicle.file import dumps, loads, reading_only, vehicle_from
 from beal.vehicle.parts import HeldEnd, ShearAxis, Thrust
 from beal.vehicle.paths import with_values
-from beal.vehicle.sliders import sliders
+from beal.vehicle.sliders import entry_sliders, sliders
 from beal.vehicle.summary import summary
 from beal.vehicle.vehicle import Vehicle
 from beal.web.questions import Dropped, Question
@@ -114,7 +114,8 @@ def described(vehicle: Vehicle) -> dict[str, Any]:
 
 def controls(base: Vehicle, vehicle: Vehicle) -> dict[str, Any]:
     """The sliders and choices of a vehicle; their ranges are those of the vehicle before any was moved."""
-    return {"quantities": list(sliders(base, vehicle)), "choices": _choices(vehicle)}
+    quantities = [*sliders(base, vehicle), *entry_sliders(base, vehicle)]
+    return {"quantities": quantities, "choices": _choices(vehicle)}
 
 
 def _choices(vehicle: Vehicle) -> list[dict[str, Any]]:

@@ -41,7 +41,7 @@ export function empty(name, message) {
 
 export function fitted() {
   const resized = new ResizeObserver((places) => {
-    for (const { target } of places) if (target.data) Plotly.Plots.resize(target);
+    for (const { target } of places) if (target.data && !target.hidden) Plotly.Plots.resize(target);
   });
   for (const place of document.querySelectorAll(".plot")) resized.observe(place);
 }
@@ -141,7 +141,7 @@ export function curve({ curve: found, critical, vehicle }, thrust) {
     columns[`growth_rate_${mode + 1}`] = found.growth_rate.map((row) => row[mode]);
   }
   const y = axis(found.units === "SI" ? "frequency (Hz)" : "angular frequency ω", { rangemode: "tozero" });
-  const words = P > 0 ? `Frequencies of ${count} modes over thrust; ${kind} at ${short(P, 7)}.` : `Frequencies of ${count} modes over thrust; stable.`;
+  const words = `Frequencies of ${count} modes over thrust${P > 0 ? `; ${kind} at ${short(P, 7)}` : kind ? "; stable" : ""}.`;
   return draw("curve", traces, layout(axis(title, { range: [0, last / factor] }), y, { shapes, annotations }), columns, words);
 }
 

@@ -57,7 +57,7 @@ export class Controls {
     const rank = (part) => (order.indexOf(part.split(/[[.]/)[0]) + 1 || 9);
     for (const [part, items] of [...groups].sort((a, b) => rank(a[0]) - rank(b[0]))) {
       const group = element("details", { "data-part": part });
-      group.open = first || !open.size ? rank(part) < 9 && groups.size < 12 || rank(part) < 3 : open.has(part);
+      group.open = first || !open.size ? (rank(part) < 9 && groups.size < 12 || rank(part) < 3) && !items[0].entry : open.has(part);
       group.append(element("summary", {}, title(part, vehicle)));
       const seldom = element("details", { "data-part": `${part}/more` });
       seldom.append(element("summary", {}, "more"));
@@ -150,7 +150,7 @@ function title(part, vehicle) {
   const name = index !== undefined && named?.[index]?.name;
   const number = index === undefined ? "" : ` ${Number(index) + 1}`;
   const rest = part.slice(part.indexOf(".") + 1);
-  const text = kind.replaceAll("_", " ") + number + (part.includes(".") ? ` ${rest}` : "") + (name ? `: ${name}` : "");
+  const text = kind.replaceAll("_", " ") + number + (part.includes(".") ? ` ${rest.replaceAll("_", " ")}` : "") + (name ? `: ${name}` : "");
   return text[0].toUpperCase() + text.slice(1);
 }
 

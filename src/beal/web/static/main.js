@@ -4,10 +4,12 @@ import { Latest, Refused, ask, read } from "./api.js";
 import * as charts from "./charts.js";
 import { Controls, element } from "./controls.js";
 import { Drawing } from "./drawing.js";
+import { Further } from "./further.js";
 import { StabilityMap } from "./map.js";
 import { named, parsed, short } from "./numbers.js";
 import { State } from "./state.js";
 
+const SLOW = 80; // ms of an answer, above which a draft comes first
 const REST = 150; // ms without a change until the quantities are asked for again
 const byId = (id) => document.getElementById(id);
 const state = new State(changed);
@@ -17,6 +19,7 @@ const map = new StabilityMap(byId("map-progress"), byId("map-stop"), (axes, valu
   state.set({ values: { ...state.now.values, [axes[0].path]: values[0], [axes[1].path]: values[1] } });
   state.keep();
 });
+const further = new Further(byId("further-progress"), byId("further-stop"));
 let model = null; // the last answers
 let solved = null;
 let resting = null; // timers: for the list of quantities, and for the slower charts
@@ -39,16 +42,31 @@ const models = new Latest("model", (answer, asked) => {
   slower();
 }, refused);
 
+const isNow = ({ to, ...asked }) => JSON.stringify(asked) === JSON.stringify({ ...question(), thrust: state.now.thrust });
+
 const solutions = new Latest("solve", (answer, asked) => {
+  if (drafts.took && !isNow(asked)) return; // a draft of something newer is drawn
   solved = answer;
-  solved.asked = performance.now();
   problems([]);
   verdict();
-  motionShown(asked.thrust);
+  curvesShown();
+}, refused);
+
+// Of a vehicle that takes its time, the curves come before the verdict.
+const drafts = new Latest("draft", (answer, asked) => {
+  solved = { ...solved, ...answer, critical: { critical_thrust: null } };
+  problems([]);
+  byId("verdict").classList.add("waiting");
+  curvesShown();
+  if (isNow(asked)) solutions.ask({ ...question(), thrust: state.now.thrust });
+}, refused);
+
+function curvesShown() {
+  motionShown();
   charts.curve(solved, thrustNow());
   requestAnimationFrame(locus);
   document.querySelector("main").classList.remove("stale");
-}, refused);
+}
 
 const motions = new Latest("response", (answer) => {
   byId("response-error").textContent = "";
@@ -73,12 +91,18 @@ function changed(part) {
   byId("start").value = String(now.start);
   if (!now.model) return;
   controls.follow(now.values);
-  if ("sensor" in part || "start" in part || "duration" in part || "mode" in part && !("thrust" in part) && !("values" in part)) slower();
+  if ("further" in part || "sensor" in part || "start" in part || "duration" in part || "mode" in part && !("thrust" in part) && !("values" in part)) slower();
   if ("axes" in part && model) axesOffered();
   const vehicle = ["model", "values", "choices", "formulation", "thrust"].some((name) => name in part);
   if (vehicle) {
-    solutions.ask({ ...question(), thrust: now.thrust });
+    const asked = { ...question(), thrust: now.thrust };
+    if (solved && !("model" in part) && solutions.took > SLOW) drafts.ask({ ...asked, to: solved.curve.thrust.at(-1) });
+    else {
+      drafts.took = 0;
+      solutions.ask(asked);
+    }
     map.stop();
+    further.stop();
     clearTimeout(resting);
     resting = setTimeout(() => models.ask(question()), solved ? REST : 0);
   } else if (solved && "mode" in part) motionShown();
@@ -150,6 +174,7 @@ function slower() {
       charts.empty("response", "no sensor");
       charts.empty("phase", "no sensor");
     }
+    furtherShown();
     const axes = mapAxes();
     if (axes.length === 2) {
       const values = Object.fromEntries(Object.entries(state.now.values).filter(([path]) => !axes.some((axis) => axis.path === path)));
@@ -158,6 +183,18 @@ function slower() {
       map.show({ ...question(), values }, axes, model.vehicle.units);
     } else charts.empty("map", "a map needs two quantities");
   }, Math.min(Math.max(4 * solutions.took, 180), 2000));
+}
+
+// One of the charts that the vehicle has what they need for.
+function furtherShown() {
+  const has = { flight: /^\[timeline/m.test(model.model), loop: model.vehicle.control, pulsation: true };
+  const list = byId("further-kind");
+  for (const [kind, there] of Object.entries(has)) list.querySelector(`[value="${kind}"]`).disabled = !there;
+  const kind = has[state.now.further] ? state.now.further : "";
+  list.value = kind;
+  byId("further").hidden = !kind;
+  if (kind) further.show(kind, question(), solved, thrustNow());
+  else further.stop();
 }
 
 function duration() {
@@ -182,7 +219,7 @@ function axesOffered() {
   const axes = mapAxes();
   for (const [n, id] of ["map-x", "map-y"].entries()) {
     const list = byId(id);
-    const paths = model.quantities.map(({ path }) => path).filter((path) => path !== "thrust.nominal");
+    const paths = model.quantities.filter(({ path, entry }) => path !== "thrust.nominal" && !entry).map(({ path }) => path);
     if (list.dataset.paths !== paths.join()) {
       list.dataset.paths = paths.join();
       list.replaceChildren(...paths.map((path) => element("option", { value: path }, named(path))));
@@ -240,6 +277,7 @@ function redraw() {
   charts.curve(solved, thrustNow());
   locus();
   map.draw();
+  further.key = null;
   slower();
 }
 
@@ -302,6 +340,7 @@ function wire() {
   on("play", "click", ({ target }) => { drawing.play(!drawing.running); target.textContent = drawing.running ? "Pause" : "Play"; target.setAttribute("aria-pressed", String(drawing.running)); });
   on("over", "change", ({ target }) => { state.set({ over: target.value }); state.keep(); });
   for (const id of ["map-x", "map-y"]) on(id, "change", () => { state.set({ axes: [byId("map-x").value, byId("map-y").value] }); state.keep(); slower(); });
+  on("further-kind", "change", ({ target }) => { state.set({ further: target.value }); state.keep(); });
   on("sensor", "change", ({ target }) => { state.set({ sensor: target.value }); state.keep(); });
   on("start", "change", ({ target }) => { state.set({ start: Number(target.value) }); state.keep(); });
   on("duration", "change", ({ target }) => { const value = parsed(target.value); if (value > 0) { state.set({ duration: value }); state.keep(); } else duration(); });

@@ -1,6 +1,6 @@
 // What the page shows, as one small object: it can be undone, redone, and put into the address.
 
-const FRESH = { values: {}, choices: {}, formulation: "objective", thrust: null, mode: 0, axes: null, over: "", sensor: "", start: 1, duration: null };
+const FRESH = { values: {}, choices: {}, formulation: "objective", thrust: null, mode: 0, axes: null, over: "", sensor: "", start: 1, duration: null, further: "" };
 
 export class State {
   #past = [];
