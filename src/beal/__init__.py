@@ -27,6 +27,7 @@ if _typing.TYPE_CHECKING:
     )
     from beal.design.answer import DesignAnswer, design_answer
     from beal.design.border import BorderPiece, SpringBorder, spring_border
+    from beal.design.cases import flight_cases, sample_cases, tolerance_cases
     from beal.design.design_file import DesignStudy, load_design
     from beal.design.distributions import Distribution
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
@@ -191,6 +192,7 @@ _HOMES = {
     "envelope": "beal.motion",
     "explore": "beal.notebook.explore",
     "flight": "beal.study.flight",
+    "flight_cases": "beal.design.cases",
     "floquet": "beal.stability.floquet",
     "floquet_chart": "beal.study.pulsating",
     "frequency_sensitivity": "beal.design.frequencies",
@@ -206,6 +208,7 @@ _HOMES = {
     "refined_map": "beal.study.refined",
     "response": "beal.motion",
     "sample": "beal.design.sampling",
+    "sample_cases": "beal.design.cases",
     "scenarios": "beal.design.robust",
     "sensitivity": "beal.design.sensitivity",
     "sobol_indices": "beal.design.indices",
@@ -217,6 +220,7 @@ _HOMES = {
     "thrust_curve": "beal.stability.curve",
     "thrust_output": "beal.design.indices",
     "thrust_quantile": "beal.design.reliability",
+    "tolerance_cases": "beal.design.cases",
     "transient_growth": "beal.motion",
     "vanishing_damping_limit": "beal.stability.vanishing",
     "verify": "beal.verification.run",
@@ -315,6 +319,7 @@ __all__ = [
     "envelope",
     "explore",
     "flight",
+    "flight_cases",
     "floquet",
     "floquet_chart",
     "frequency_sensitivity",
@@ -330,6 +335,7 @@ __all__ = [
     "refined_map",
     "response",
     "sample",
+    "sample_cases",
     "scenarios",
     "sensitivity",
     "sobol_indices",
@@ -341,6 +347,7 @@ __all__ = [
     "thrust_curve",
     "thrust_output",
     "thrust_quantile",
+    "tolerance_cases",
     "transient_growth",
     "vanishing_damping_limit",
     "verify",
