@@ -35,6 +35,7 @@ if _typing.TYPE_CHECKING:
     from beal.design.indices import MorrisEffects, SobolIndices, morris_effects, sobol_indices, thrust_output
     from beal.design.mdo import StabilityComponent
     from beal.design.optimise import Optimum, optimise
+    from beal.design.pareto import ParetoFront, pareto
     from beal.design.ranges import AllowedInterval, AllowedRange, allowed_range
     from beal.design.reliability import Estimate, probability_of_instability, thrust_quantile
     from beal.design.robust import Scenario, WorstCase, scenarios, worst_case
@@ -143,6 +144,7 @@ _HOMES = {
     "Operators": "beal.discretisation.operators",
     "Optimum": "beal.design.optimise",
     "Parameter": "beal.design.sensitivity",
+    "ParetoFront": "beal.design.pareto",
     "PointMass": "beal.vehicle.parts",
     "PulsatingThrust": "beal.motion",
     "RefinedMap": "beal.study.refined",
@@ -203,6 +205,7 @@ _HOMES = {
     "morris_effects": "beal.design.indices",
     "open_loop": "beal.control",
     "optimise": "beal.design.optimise",
+    "pareto": "beal.design.pareto",
     "plot": "beal.plot",
     "probability_of_instability": "beal.design.reliability",
     "refined_map": "beal.study.refined",
@@ -270,6 +273,7 @@ __all__ = [
     "Operators",
     "Optimum",
     "Parameter",
+    "ParetoFront",
     "PointMass",
     "PulsatingThrust",
     "RefinedMap",
@@ -330,6 +334,7 @@ __all__ = [
     "morris_effects",
     "open_loop",
     "optimise",
+    "pareto",
     "plot",
     "probability_of_instability",
     "refined_map",

@@ -14,11 +14,11 @@ from beal.errors import ConvergenceError
 
 Array = NDArray[np.float64]
 
-FIRST_STEP, LEAST_STEP, GROWN, SHRUNK = 0.1, 1e-7, 2.0, 0.4  # of the trust region, in the unit cube
+FIRST_STEP, LEAST_STEP, GROWN, SHRUNK = 0.1, 1e-6, 2.0, 0.4  # of the trust region, in the unit cube
 CLIFFS = 12  # rejected steps remembered
 GAIN = 1e-4  # share of the worth below which a search does not begin anew
 AT_ONCE = 1.0  # times the ratio that counts: only what comes first
-NOTHING = 1e-9  # gain that a linear programme promises at a local optimum, relative
+NOTHING = 1e-7  # gain that a linear programme promises at a local optimum, relative
 FALL, CLOSE = 0.02, 1e-3  # of the ratio, by a step in the unit cube that explains no more than half of it
 
 
