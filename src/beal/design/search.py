@@ -14,8 +14,9 @@ from beal.errors import ConvergenceError
 
 Array = NDArray[np.float64]
 
-FIRST_STEP, LEAST_STEP, GROWN, SHRUNK = 0.1, 1e-6, 2.0, 0.4  # of the trust region, in the unit cube
+FIRST_STEP, LEAST_STEP, GROWN, SHRUNK = 0.1, 1e-5, 2.0, 0.4  # of the trust region, in the unit cube
 CLIFFS = 12  # rejected steps remembered
+NEAR = 3.0  # radii within which a cliff is about where its plane says
 GAIN = 1e-4  # share of the worth below which a search does not begin anew
 AT_ONCE = 1.0  # times the ratio that counts: only what comes first
 NOTHING = 1e-7  # gain that a linear programme promises at a local optimum, relative
@@ -61,8 +62,9 @@ def climbed(task: Task, place: Array, iterations: int) -> Climb | None:
         seen = trail[-1]
         if here is None:
             here = task.cuts(seen)
-        to, gain = _step(task, seen, here, cliffs, radius)
-        if gain < NOTHING and not cliffs:
+        near = [cut for cut in cliffs if np.abs(cut.place - seen.place).max() < NEAR * radius]
+        to, gain = _step(task, seen, here, near, radius)
+        if gain < NOTHING and not near:
             break
         if gain < NOTHING:
             cliffs.clear()
