@@ -41,6 +41,7 @@ if _typing.TYPE_CHECKING:
     from beal.design.robust import Scenario, WorstCase, scenarios, worst_case
     from beal.design.sampling import Sample, sample
     from beal.design.sensitivity import Parameter, Rival, Sensitivity, sensitivity
+    from beal.design.touches import Touch
     from beal.design.uncertain import Uncertain
     from beal.design.variables import DesignSpace, LinearBound, Variable
     from beal.discretisation.build import discretise
@@ -171,6 +172,7 @@ _HOMES = {
     "ThrustCurve": "beal.stability.curve",
     "ThrustTable": "beal.motion",
     "Timeline": "beal.vehicle.timeline",
+    "Touch": "beal.design.touches",
     "TransientGrowth": "beal.motion",
     "Uncertain": "beal.design.uncertain",
     "Variable": "beal.design.variables",
@@ -300,6 +302,7 @@ __all__ = [
     "ThrustCurve",
     "ThrustTable",
     "Timeline",
+    "Touch",
     "TransientGrowth",
     "Uncertain",
     "Variable",
