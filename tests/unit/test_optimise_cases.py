@@ -93,16 +93,17 @@ def test_an_imperfection_counts_where_it_is_the_weakest():
 
 def test_slopes_go_through_cases_links_and_spacing():
     damped = with_values(catalog.beck(), {"stage[0].internal_damping": 0.02, NOMINAL: 3.0})
-    chosen = DesignSpace(damped, {MASS: Variable(0.5, 4.0, "log")}, {STIFFNESS: Link(MASS, power=2.0)})
+    links = {STIFFNESS: Link(MASS, power=2.0), NOMINAL: Link(MASS, factor=3.0)}
+    chosen = DesignSpace(damped, {MASS: Variable(0.5, 4.0, "log")}, links)
     softer = Scenario("softer", {STIFFNESS: 0.8})
     task = Task(chosen, "margin", cases=(softer,))
-    seen = task.seen(np.array([0.3]))
     vehicle = softer.applied(chosen.at([0.3]))
     gradient = beal.critical_gradient(vehicle, [MASS, STIFFNESS])
-    mass, stiffness = vehicle.stages[0].mass_per_length, vehicle.stages[0].bending_stiffness
-    by_chain = gradient.thrust @ [mass, 2 * stiffness] * np.log(8.0) / 3.0
-    first = min(task.cuts(seen), key=lambda cut: cut.ratio)
-    assert first.ratio == pytest.approx(gradient.critical.critical_thrust / 3.0, rel=1e-7)
+    thrust, (stage,) = gradient.critical.critical_thrust, vehicle.stages
+    mass, stiffness = stage.mass_per_length, stage.bending_stiffness
+    by_chain = (gradient.thrust @ [mass, 2 * stiffness] - thrust) * np.log(8.0) / (3.0 * mass)
+    first = min(task.cuts(task.seen(np.array([0.3]))), key=lambda cut: cut.ratio)
+    assert first.ratio == pytest.approx(thrust / (3.0 * mass), rel=1e-7)
     assert first.slope[0] == pytest.approx(by_chain, rel=1e-7)
 
 
