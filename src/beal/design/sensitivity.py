@@ -169,8 +169,8 @@ def sensitivity(
     Notes
     -----
     The critical thrust is the smallest of many. Where another instability overtakes it, it has a kink; where a pair of
-    modes begins or ceases to meet, it jumps. The attribute ``rivals`` tells what is close above, ``touches`` what a small
-    change of an undamped vehicle would newly bring about below, to first order.
+    modes begins or ceases to meet, it jumps. The attribute ``rivals`` tells what is close above, ``touches`` what a
+    small change of an undamped vehicle would newly bring about below, to first order.
 
     Source: Seyranian & Mailybaev (2003), Multiparameter stability theory with mechanical applications.
 
