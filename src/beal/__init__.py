@@ -27,6 +27,7 @@ if _typing.TYPE_CHECKING:
     )
     from beal.design.answer import DesignAnswer, design_answer
     from beal.design.border import BorderPiece, SpringBorder, spring_border
+    from beal.design.cases import flight_cases, sample_cases, tolerance_cases
     from beal.design.design_file import DesignStudy, load_design
     from beal.design.distributions import Distribution
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
@@ -34,11 +35,13 @@ if _typing.TYPE_CHECKING:
     from beal.design.indices import MorrisEffects, SobolIndices, morris_effects, sobol_indices, thrust_output
     from beal.design.mdo import StabilityComponent
     from beal.design.optimise import Optimum, optimise
+    from beal.design.pareto import ParetoFront, pareto
     from beal.design.ranges import AllowedInterval, AllowedRange, allowed_range
     from beal.design.reliability import Estimate, probability_of_instability, thrust_quantile
     from beal.design.robust import Scenario, WorstCase, scenarios, worst_case
     from beal.design.sampling import Sample, sample
     from beal.design.sensitivity import Parameter, Rival, Sensitivity, sensitivity
+    from beal.design.touches import Touch
     from beal.design.uncertain import Uncertain
     from beal.design.variables import DesignSpace, LinearBound, Variable
     from beal.discretisation.build import discretise
@@ -142,6 +145,7 @@ _HOMES = {
     "Operators": "beal.discretisation.operators",
     "Optimum": "beal.design.optimise",
     "Parameter": "beal.design.sensitivity",
+    "ParetoFront": "beal.design.pareto",
     "PointMass": "beal.vehicle.parts",
     "PulsatingThrust": "beal.motion",
     "RefinedMap": "beal.study.refined",
@@ -168,6 +172,7 @@ _HOMES = {
     "ThrustCurve": "beal.stability.curve",
     "ThrustTable": "beal.motion",
     "Timeline": "beal.vehicle.timeline",
+    "Touch": "beal.design.touches",
     "TransientGrowth": "beal.motion",
     "Uncertain": "beal.design.uncertain",
     "Variable": "beal.design.variables",
@@ -191,6 +196,7 @@ _HOMES = {
     "envelope": "beal.motion",
     "explore": "beal.notebook.explore",
     "flight": "beal.study.flight",
+    "flight_cases": "beal.design.cases",
     "floquet": "beal.stability.floquet",
     "floquet_chart": "beal.study.pulsating",
     "frequency_sensitivity": "beal.design.frequencies",
@@ -201,11 +207,13 @@ _HOMES = {
     "morris_effects": "beal.design.indices",
     "open_loop": "beal.control",
     "optimise": "beal.design.optimise",
+    "pareto": "beal.design.pareto",
     "plot": "beal.plot",
     "probability_of_instability": "beal.design.reliability",
     "refined_map": "beal.study.refined",
     "response": "beal.motion",
     "sample": "beal.design.sampling",
+    "sample_cases": "beal.design.cases",
     "scenarios": "beal.design.robust",
     "sensitivity": "beal.design.sensitivity",
     "sobol_indices": "beal.design.indices",
@@ -217,6 +225,7 @@ _HOMES = {
     "thrust_curve": "beal.stability.curve",
     "thrust_output": "beal.design.indices",
     "thrust_quantile": "beal.design.reliability",
+    "tolerance_cases": "beal.design.cases",
     "transient_growth": "beal.motion",
     "vanishing_damping_limit": "beal.stability.vanishing",
     "verify": "beal.verification.run",
@@ -266,6 +275,7 @@ __all__ = [
     "Operators",
     "Optimum",
     "Parameter",
+    "ParetoFront",
     "PointMass",
     "PulsatingThrust",
     "RefinedMap",
@@ -292,6 +302,7 @@ __all__ = [
     "ThrustCurve",
     "ThrustTable",
     "Timeline",
+    "Touch",
     "TransientGrowth",
     "Uncertain",
     "Variable",
@@ -315,6 +326,7 @@ __all__ = [
     "envelope",
     "explore",
     "flight",
+    "flight_cases",
     "floquet",
     "floquet_chart",
     "frequency_sensitivity",
@@ -325,11 +337,13 @@ __all__ = [
     "morris_effects",
     "open_loop",
     "optimise",
+    "pareto",
     "plot",
     "probability_of_instability",
     "refined_map",
     "response",
     "sample",
+    "sample_cases",
     "scenarios",
     "sensitivity",
     "sobol_indices",
@@ -341,6 +355,7 @@ __all__ = [
     "thrust_curve",
     "thrust_output",
     "thrust_quantile",
+    "tolerance_cases",
     "transient_growth",
     "vanishing_damping_limit",
     "verify",

@@ -134,3 +134,15 @@ def test_a_study_that_cannot_be_answered_is_refused_before_any_search(tmp_path, 
     assert old in STUDY
     with pytest.raises(beal.ModelError, match=message):
         study_of(tmp_path, STUDY.replace(old, new))
+
+
+def test_a_study_may_ask_for_the_largest_margin(tmp_path):
+    column = beal.catalog.beck().model_copy(update={"thrust": beal.Thrust(nominal=10.0)})
+    (tmp_path / "model.toml").write_text(beal.dumps(column))
+    (tmp_path / "study.toml").write_text(
+        f'model = "model.toml"\n[design]\nobjective = "margin"\n[variables]\n"{EI}" = {{low = 0.5, high = 2.0}}\n'
+    )
+    study = beal.load_design(tmp_path / "study.toml")
+    assert (study.objective, study.target) == ("margin", None)
+    best = beal.optimise(study.space, study.objective)
+    assert best.margin == pytest.approx(2 * BECK / 10 - 1, rel=1e-7)

@@ -45,7 +45,7 @@ def test_a_target_out_of_reach_names_the_nearest_thrust():
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
-        ({"objective": "cost"}, "must be critical_thrust or mass, found 'cost'"),
+        ({"objective": "cost"}, "must be critical_thrust, margin or mass, found 'cost'"),
         ({"objective": "mass"}, "goes with the objective mass"),
         ({"target": 3.0}, "goes with the objective mass"),
         ({"objective": "mass", "target": -3.0}, "must be a positive thrust, found -3"),

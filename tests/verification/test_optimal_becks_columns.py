@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from beal import DesignSpace, Joint, LinearBound, Link, Stage, Support, Variable, Vehicle, critical_events, optimise
-from beal.design.slopes import slopes
+from beal.design.worth import Task
 
 BECK = 20.0509536
 AREAS = [f"stage[{n}].mass_per_length" for n in range(6)]
 NEAR = {  # where long searches led
     1: (0.7565, 2.0328, 1.6126, 0.7923, 0.5671, 0.2387),
-    2: (0.7192, 1.5534, 1.6309, 0.8333, 0.8305, 0.4327),
+    2: (0.7395015531, 1.5069641324, 1.6646097446, 0.8281137363, 0.8273342511, 0.4334765826),  # at a cliff
     3: (0.8136, 1.3525, 1.368, 0.992, 0.8732, 0.6007),
 }
 
@@ -34,7 +34,7 @@ def columns(power):
 
 def first_unstable(areas, power, thrusts):
     """The first thrust of a sweep at which a root is not real and positive: cubic elements of its own."""
-    each = 8
+    each = 16  # eight would let modes meet that only come close, those of EI ~ A^2 at 74
     n = 6 * each
     h = 1 / n
     K, G, M = np.zeros((3, 2 * n + 2, 2 * n + 2))
@@ -63,14 +63,14 @@ def first_unstable(areas, power, thrusts):
     return None
 
 
-@pytest.mark.parametrize(("power", "gain"), [(1, 3.3591), (2, 3.5671), (3, 3.1528)])
-def test_the_optimum_is_beyond_what_was_known_and_true(power, gain):
+@pytest.mark.parametrize(("power", "known", "gain"), [(1, 3.3591, 4.47), (2, 3.5671, 4.31), (3, 3.1528, 3.53)])
+def test_the_optimum_is_beyond_what_was_known_and_true(power, known, gain):
     best = optimise(columns(power), start=dict(zip(AREAS, NEAR[power], strict=True)), iterations=2)
     thrust = best.critical.critical_thrust
     assert sum(best.values.values()) == pytest.approx(6.0, abs=1e-9)
-    assert thrust > gain * BECK
+    assert thrust > gain * BECK > known * BECK
     assert best.second.critical_thrust == pytest.approx(thrust, rel=1e-4)
-    sweep = np.append(np.arange(0.1, thrust * (1 - 1e-3), 0.3), thrust * (1 + 1e-3))
+    sweep = np.append(np.arange(0.1, thrust * (1 - 1e-3), 0.6), thrust * (1 + 1e-3))
     assert first_unstable(list(best.values.values()), power, sweep) == sweep[-1]
 
 
@@ -81,8 +81,8 @@ def test_slopes_of_all_instabilities_are_those_of_differences():
     def thrusts(at):
         return np.array([event.thrust for event in critical_events(space.at(at), 200.0)])
 
-    events = critical_events(space.at(place), 200.0)
-    found = slopes(events, space.at, place, 12)
+    task = Task(space)
+    found = np.array([cut.slope for cut in task.cuts(task.seen(place), 10.0) if cut.ratio < 200.0])
     for axis, side in enumerate(1e-4 * np.eye(6)):
         wide, narrow = ((thrusts(place + h * side) - thrusts(place - h * side)) / (2e-4 * h) for h in (2, 1))
         assert found[:, axis] == pytest.approx((4 * narrow - wide) / 3, rel=1e-6, abs=1e-5)

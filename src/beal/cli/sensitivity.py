@@ -13,6 +13,7 @@ from beal.cli.output import emit, show_table
 if TYPE_CHECKING:
     from beal.design.frequencies import FrequencySensitivity
     from beal.design.sensitivity import Rival, Sensitivity
+    from beal.design.touches import Touch
     from beal.vehicle.vehicle import Vehicle
 
 
@@ -66,6 +67,11 @@ def _data(found: "Sensitivity") -> dict[str, Any]:
             | {"change": each.event.change, "distance": each.distance, "derivatives": each.derivatives}
             for each in found.rivals
         ],
+        "touches": [
+            {"thrust": each.thrust, "kind": each.kind, "modes": each.modes}
+            | {"changes": [None if math.isnan(change) else change for change in each.changes]}
+            for each in found.touches
+        ],
     }
 
 
@@ -102,6 +108,8 @@ def _show(vehicle: "Vehicle", found: "Sensitivity") -> None:
         print(f"without a derivative, since the critical thrust jumps: {', '.join(unknown)}")
     for rival in found.rivals:
         print(_warning(rival))
+    for touch in found.touches:
+        print(_cliff(found, touch))
 
 
 def _significant(elasticity: float) -> float:
@@ -118,6 +126,15 @@ def _warning(rival: "Rival") -> str:
     return (
         f"close by: {event.kind} of modes {pair} {what} {100 * rival.distance:.2g} % above; "
         "a change of the vehicle may make the critical thrust jump or give it a kink"
+    )
+
+
+def _cliff(found: "Sensitivity", touch: "Touch") -> str:
+    path = found.parameters[touch.changes.index(touch.nearest)].path
+    pair = " and ".join(map(str, dict.fromkeys(touch.modes)))
+    return (
+        f"a cliff close by: {touch.kind} of modes {pair} begins at a thrust of {touch.thrust:.6g} "
+        f"once {path} changes by {100 * touch.nearest:+.2g} %"
     )
 
 

@@ -198,6 +198,22 @@ def differences(quantity: Movable, solve: Solve) -> tuple[NDArray[Any], NDArray[
     return min(tried, key=lambda each: float(np.abs(each[0] - each[1]).max()), default=None)
 
 
+def slope(quantity: Movable, function: Callable[[Vehicle], float]) -> float:
+    """Derivative of what changes smoothly with a quantity, such as the mass."""
+    for stencil in (CENTRAL, FORWARD, BACKWARD):
+        try:
+            there = [function(quantity.moved(offset * quantity.step)) for offset in stencil.offsets]
+        except ModelError:
+            continue  # beyond what is allowed: to the other side
+        return float(np.dot(stencil.weights, there)) / quantity.step
+    raise ModelError([(quantity.path, "can be changed to neither side")])
+
+
+def mass(vehicle: Vehicle) -> float:
+    """In kg."""
+    return vehicle.mass
+
+
 def natural_size(path: str, scales: Scales) -> float:
     """What counts as one of a quantity: the product of powers of the vehicle's length, mass and time."""
     name = path.rpartition(".")[2]

@@ -11,12 +11,12 @@ from pydantic import Field, FiniteFloat, ValidationError
 
 from beal.design.copula import Measure, Pair
 from beal.design.distributions import Distribution
-from beal.design.optimise import Objective
 from beal.design.ranges import thrust_asked
 from beal.design.robust import Scenario
 from beal.design.scatter_file import SamplingEntry, ScatterEntry
 from beal.design.uncertain import Uncertain
 from beal.design.variables import DesignSpace, LinearBound, Variable
+from beal.design.worth import Objective
 from beal.errors import ModelError
 from beal.interop.files import load
 from beal.study.file import Given, LinkEntry, number
@@ -84,7 +84,7 @@ class DesignStudy:
     Parameters
     ----------
     space : DesignSpace
-    objective : {"critical_thrust", "mass"}
+    objective : {"critical_thrust", "margin", "mass"}
     target : float or None
         Critical thrust to reach at the least mass, in N.
     question : str

@@ -5,6 +5,7 @@ import re
 from functools import cached_property
 from typing import Any
 
+from beal.design.derivatives import Quantity, mass, slope
 from beal.design.gradient import critical_gradient
 from beal.design.sensitivity import differentiable
 from beal.errors import ConvergenceError, ModelError
@@ -19,7 +20,6 @@ except ModuleNotFoundError:
     raise ModelError("StabilityComponent: needs OpenMDAO, which is not installed; install beal[mdo]") from None
 
 NOMINAL = "thrust.nominal"
-STEP = 1e-3  # of a quantity: the mass is at most quadratic in each, and linear in those that may be 0
 
 
 class StabilityComponent(om.ExplicitComponent):  # type: ignore[misc]
@@ -125,7 +125,7 @@ class StabilityComponent(om.ExplicitComponent):  # type: ignore[misc]
             P, omega = (sum(rate * slopes[key][n] for key, rate in rates.items() if key in slopes) for n in (0, 1))
             partials["critical_thrust", name] = P
             partials["angular_frequency", name] = omega
-            partials["mass", name] = sum(rate * _mass_slope(vehicle, key) for key, rate in rates.items())
+            partials["mass", name] = sum(rate * slope(Quantity(vehicle, key), mass) for key, rate in rates.items())
             if nominal is not None:
                 partials["margin", name] = (P - thrust / nominal * rates.get(NOMINAL, 0.0)) / nominal
 
@@ -146,11 +146,3 @@ class StabilityComponent(om.ExplicitComponent):  # type: ignore[misc]
 
 def _units(vehicle: Vehicle, path: str) -> str | None:
     return unit_at(vehicle, path).replace("^", "**") or None
-
-
-def _mass_slope(vehicle: Vehicle, path: str) -> float:
-    value = value_at(vehicle, path)
-    step = STEP * abs(value)
-    ends = (value - step, value + step) if step else (0.0, STEP)
-    low, high = (with_values(vehicle, {path: end}).mass for end in ends)
-    return (high - low) / (ends[1] - ends[0])

@@ -1,19 +1,22 @@
 """Derivatives of the critical thrust and its frequency with respect to every quantity of a vehicle."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
 from beal.design.branches import Flown, Slopes, Status, branch, builder, no_slopes, slopes, tied
-from beal.design.derivatives import Quantity, bare, quantities_of
+from beal.design.derivatives import Quantity, bare, changes, quantities_of
+from beal.design.touches import Touch, dips, touch
 from beal.discretisation.build import Formulation
+from beal.discretisation.operators import Operators
 from beal.errors import ConvergenceError, ModelError
 from beal.shown import Shown
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
 from beal.stability.double_root import CriticalPoint
+from beal.stability.pencil import acting, pencil
 from beal.stability.ridge import Kind
 from beal.stability.threads import one_thread
 from beal.study.flight import vehicle_at
@@ -23,6 +26,8 @@ NEAR = 5e-2  # relative distance of another critical thrust within which it is t
 ROUNDING = 1e-9  # elasticity that counts as none
 LEAST, JUMP = 1e-3, 1e-2  # of the first step from zero, and the relative change of the thrust that no slope explains
 TIE = 1e-6  # below which two count as one
+
+Differentiability = Literal["smooth", "near a switch", "near a cliff", "tie"]
 
 
 @dataclass(frozen=True)
@@ -92,18 +97,22 @@ class Sensitivity(Shown):
     critical : CriticalThrust
         The one that is differentiated; of a vehicle that tumbles, that of its elastic modes.
     parameters : tuple of Parameter
-    status : {"smooth", "near a switch", "tie"}
-        Whether another critical thrust is within 5 %, so that the derivatives hold for small changes only, or within
-        1e-6: then the smallest has a kink and each side its own derivative, `Parameter.below` and `Parameter.above`.
+    status : {"smooth", "near a switch", "near a cliff", "tie"}
+        Whether another critical thrust is within 5 %, so that the derivatives hold for small changes only; whether 5 %
+        of a quantity would newly bring about one below; or whether another is within 1e-6: then the smallest has a
+        kink and each side its own derivative, `Parameter.below` and `Parameter.above`.
     rivals : tuple of Rival
     units : {"SI", "nondimensional"}
+    touches : tuple of Touch
+        What 5 % of a quantity would newly bring about; of damped vehicles nobody looked.
     """
 
     critical: CriticalThrust
     parameters: tuple[Parameter, ...]
-    status: Literal["smooth", "near a switch", "tie"]
+    status: Differentiability
     rivals: tuple[Rival, ...]
     units: Literal["SI", "nondimensional"]
+    touches: tuple[Touch, ...] = ()
 
     @property
     def ranked(self) -> tuple[Parameter, ...]:
@@ -160,8 +169,8 @@ def sensitivity(
     Notes
     -----
     The critical thrust is the smallest of many. Where another instability overtakes it, it has a kink; where a pair of
-    modes begins or ceases to meet, it jumps. The attribute ``status`` tells what is close above; an instability that a
-    change of the vehicle would newly bring about, below, is not seen.
+    modes begins or ceases to meet, it jumps. The attribute ``rivals`` tells what is close above, ``touches`` what a
+    small change of an undamped vehicle would newly bring about below, to first order.
 
     Source: Seyranian & Mailybaev (2003), Multiparameter stability theory with mechanical applications.
 
@@ -188,6 +197,7 @@ def sensitivity(
             else slopes(each, branches, lambda moved: discretised(flown(moved)), operators)
             for each in quantities
         ]
+        close = _touches(quantities, lambda moved: discretised(flown(moved)), operators, same[0].point.thrust)
     told = tuple(
         Rival(event, event.thrust / same[0].point.thrust - 1, tuple(float(row.fine[n, 0]) for row in rows))
         for n, event in enumerate(rivals, start=len(same))
@@ -199,9 +209,23 @@ def sensitivity(
     parameters = tuple(
         _parameter(each.path, each.value, row, same[0].point, level) for each, row in zip(quantities, rows, strict=True)
     )
-    return Sensitivity(
-        found, parameters, "tie" if level else "near a switch" if told else "smooth", told, vehicle.units
-    )
+    status: Differentiability = "tie" if level else "near a cliff" if close else "near a switch" if told else "smooth"
+    return Sensitivity(found, parameters, status, told, vehicle.units, close)
+
+
+def _touches(
+    quantities: Sequence[Quantity], build: Callable[[Vehicle], Operators], here: Operators, to: float
+) -> tuple[Touch, ...]:
+    """The instabilities that a change of one of the quantities by 5 % would newly bring about."""
+    problem = partial(pencil, kept=acting(here))
+    full = problem(here)
+    there = list(dips(full, to))
+    if not there:
+        return ()
+    moves = [next(changes(each, build, here), None) for each in quantities]
+    kept = [None if move is None or move.operators[0].C is not None else move.of(problem)[0] for move in moves]
+    close = (touch(full, dip, [each.value for each in quantities], kept) for dip in there)
+    return tuple(each for each in close if abs(each.nearest) < NEAR)
 
 
 def guess(found: CriticalThrust | Event) -> tuple[Kind, float, float]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
+from beal.design.derivatives import STEP
 from beal.errors import ModelError
 from beal.vehicle.links import Link, with_links
 from beal.vehicle.paths import value_at, with_values
@@ -127,6 +128,10 @@ class DesignSpace:
         """The variables there, by path."""
         return {path: one.value(share) for (path, one), share in zip(self.variables.items(), shares, strict=True)}
 
+    def coordinates(self, shares: Array) -> "list[Coordinate]":
+        """The sides of the unit cube at a point."""
+        return [Coordinate(self, shares, number) for number in range(len(self.variables))]
+
     def shares(self, values: Mapping[str, float]) -> Array:
         """The point of the unit cube with these values."""
         return np.clip([one.share(values[path]) for path, one in self.variables.items()], 0.0, 1.0)
@@ -156,3 +161,46 @@ class DesignSpace:
         if found.x is None:
             raise ModelError([("bounds", "contradictory: no design within the bounds of the variables meets them all")])
         return np.asarray(found.x[:n])
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One side of a space's unit cube at a point, as what matrices are differentiated with respect to.
+
+    What is linked to the variable moves with it.
+
+    Parameters
+    ----------
+    space : DesignSpace
+    shares : ndarray, shape (variables,)
+    number : int
+        Of the variable.
+    """
+
+    space: DesignSpace
+    shares: Array
+    number: int
+
+    @property
+    def path(self) -> str:
+        """Of the variable."""
+        return list(self.space.variables)[self.number]
+
+    @property
+    def value(self) -> float:
+        """Between 0 and 1."""
+        return float(self.shares[self.number])
+
+    @property
+    def step(self) -> float:
+        """By which the variable changes about as much as a quantity on its own would."""
+        one = self.space.variables[self.path]
+        if one.spacing == "log":
+            return STEP / math.log(one.high / one.low)
+        return STEP * abs(self.space.values(self.shares)[self.path]) / (one.high - one.low) or STEP
+
+    def moved(self, distance: float) -> Vehicle:
+        """The vehicle a distance away, which may lie beyond the bounds."""
+        shares = np.array(self.shares)
+        shares[self.number] += distance
+        return self.space.at(shares)

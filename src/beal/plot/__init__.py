@@ -9,6 +9,7 @@ from beal.plot.flight import flight
 from beal.plot.histories import amplitude_map, amplitude_spectrum, envelope, response, trajectory
 from beal.plot.maps import stability_map
 from beal.plot.opened import nichols, nyquist
+from beal.plot.pareto import pareto_front
 from beal.plot.pulsating import floquet_chart, multipliers
 from beal.plot.shapes import deflections, mode_shapes
 from beal.plot.style import style
@@ -31,6 +32,7 @@ __all__ = [
     "multipliers",
     "nichols",
     "nyquist",
+    "pareto_front",
     "pseudospectrum",
     "response",
     "root_locus",

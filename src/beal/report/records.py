@@ -5,6 +5,7 @@ from dataclasses import asdict
 from typing import Any
 
 from beal.control import ClosedLoop, Margins
+from beal.design.pareto import ParetoFront
 from beal.design.reliability import probability_of_instability, thrust_quantile
 from beal.design.sampling import Sample
 from beal.motion import PARTS, QUANTITIES, Response
@@ -125,6 +126,36 @@ def sample_record(found: Sample, thrust: float | None) -> dict[str, Any]:
         "thrust": thrust,
         "quantiles": [{"probability": q, **asdict(estimate)} for q, estimate in quantiles.items()],
         "probability_of_instability": None if thrust is None else asdict(probability_of_instability(found, thrust)),
+    }
+
+
+def front_record(found: ParetoFront) -> dict[str, Any]:
+    """A Pareto front as a JSON object.
+
+    Parameters
+    ----------
+    found : ParetoFront
+
+    Returns
+    -------
+    dict
+        Under ``points`` the mass, critical thrust, kind and variables of each design, and whether it is at a cliff.
+    """
+    return {
+        "points": [
+            {
+                "mass": point.mass,
+                "critical_thrust": point.critical.critical_thrust,
+                "kind": point.critical.kind,
+                "cliff": point.cliff,
+                "case": point.case,
+                "values": point.values,
+            }
+            for point in found.points
+        ],
+        "targets": found.targets,
+        "gaps": found.gaps,
+        "units": found.units,
     }
 
 
