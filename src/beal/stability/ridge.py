@@ -152,7 +152,8 @@ class Search:
     def _between_divergences(self) -> Array:
         """Thrusts between neighbouring ones at which a root is zero, which all are known: no interval is too narrow."""
         thrusts = np.array([]) if self._drift else zero_roots(self.pencil, self.limit)
-        return (thrusts[1:] + thrusts[:-1]) / 2
+        between = (thrusts[1:] + thrusts[:-1]) / 2
+        return np.asarray(between[between < self.limit])
 
     def _within(self, left: State, right: State) -> Instability | None:
         """The first instability between a stable state and another one."""
