@@ -113,8 +113,24 @@ def test_evidence_that_cannot_be_had_is_told_and_the_rest_kept(tmp_path, monkeyp
 
 
 @pytest.mark.parametrize(
+    ("robust", "weakest"),
+    [("worst", 0.8), ("quantile", None)],
+)
+def test_a_robust_study_counts_the_weakest_of_its_cases(tmp_path, robust, weakest):
+    text = STUDY.replace("starts = 1", f'starts = 1\nrobust = "{robust}"\nquantile = 0.25')
+    study = study_of(tmp_path, text)
+    best = beal.optimise(study.space, "mass", study.target, cases=study.cases, quantile=study.quantile)
+    if weakest is None:
+        factors = sorted(case.factors[EI] for case in study.cases)
+        weakest = factors[len(factors) // 4]
+    assert best.values[EI] == pytest.approx(30 / (weakest * BECK), rel=1e-6)
+    assert best.critical.critical_thrust == pytest.approx(30.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(
     ("old", "new", "message"),
     [
+        ("starts = 1", 'robust = "best"', "must be 'worst' or 'quantile'"),
         ("target = 30.0", "", "give either a target thrust or a factor"),
         ('objective = "mass"', "", "design.target: goes with the objective mass"),
         ("low = 0.5", "low = 4.0", "contradictory bounds: from 4 to 3"),

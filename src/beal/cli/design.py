@@ -76,7 +76,7 @@ def _answer(found: "DesignAnswer") -> Answer:
 
     best, study = found.best, found.study
     given, unit = study.space.vehicle, thrust_unit(study.space.vehicle)
-    thrust = best.critical.critical_thrust or 0.0
+    thrust = found.critical.critical_thrust or 0.0
     kilograms = " kg" if unit else ""
     told = [f"mass {best.mass:.6g}{kilograms}, as given {given.mass:.6g}{kilograms}"]
     if found.given and found.given.critical_thrust:
@@ -84,7 +84,13 @@ def _answer(found: "DesignAnswer") -> Answer:
         told.append(f"critical thrust as given {quantity(before, unit)}: the design has {thrust / before - 1:+.1%}")
     how = f"best of {best.starts} local searches over {best.evaluations} vehicles, confirmed by the complete search"
     if best.second and best.second.critical_thrust:
-        how += f" and by another discretisation, to {abs(best.second.critical_thrust / thrust - 1):.0e}"
+        apart = abs(best.second.critical_thrust / (best.critical.critical_thrust or 1.0) - 1)
+        how += f" and by another discretisation, to {apart:.0e}"
+    if study.cases:
+        weakest = "the weakest" if not study.quantile else f"the weakest but for {study.quantile:.0%}"
+        told.insert(
+            0, f"{weakest} of {len(study.cases)} cases, {best.case}: {instability(best.vehicle, best.critical)}"
+        )
     told.append(f"{how}; nothing proves that no other design is better")
     if len(best.active) > 1:
         tied = " and ".join(f"{event.kind} of modes {event.modes[0]} and {event.modes[1]}" for event in best.active)
@@ -94,7 +100,7 @@ def _answer(found: "DesignAnswer") -> Answer:
         ends = (one.low, _edge(one.low_edge, one.low_kind), one.high, _edge(one.high_edge, one.high_kind))
         rows.append((path, value, _bound(study.space.variables[path], value), *ends))
     return [
-        f"design: {instability(best.vehicle, best.critical)}",
+        f"design: {instability(best.vehicle, found.critical)}",
         (("name", "design", "at bound", "from", "ends with", "to", "ends with"), rows),
         f"from, to: the variable moved alone keeps {study.keep:.0%} of that thrust, {quantity(found.kept, unit)}",
         *told,
@@ -148,7 +154,7 @@ def _data(found: "DesignAnswer") -> dict[str, Any]:
 
     best, study = found.best, found.study
     return {
-        **critical_record(best.vehicle, best.critical),
+        **critical_record(best.vehicle, found.critical),
         "question": study.question,
         "objective": study.objective,
         "target": study.target,
@@ -160,6 +166,8 @@ def _data(found: "DesignAnswer") -> dict[str, Any]:
         "kept": found.kept,
         "given": found.given and critical_record(study.space.vehicle, found.given),
         "second": best.second and asdict(best.second),
+        "case": best.case,
+        "case_thrust": best.critical.critical_thrust,
         "active": [event_record(event) for event in best.active],
         "starts": best.starts,
         "evaluations": best.evaluations,

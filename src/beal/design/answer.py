@@ -38,6 +38,9 @@ class DesignAnswer:
     ----------
     study : DesignStudy
     best : Optimum
+        Where cases count, its critical thrust is that of the weakest.
+    critical : CriticalThrust
+        Of the design itself.
     given : CriticalThrust or None
         Of the vehicle in the file; None where it cannot be solved.
     ranges : dict of str to AllowedInterval
@@ -59,6 +62,7 @@ class DesignAnswer:
 
     study: DesignStudy
     best: Optimum
+    critical: CriticalThrust
     given: CriticalThrust | None
     ranges: dict[str, AllowedInterval]
     chart: "Dataset"
@@ -77,7 +81,7 @@ class DesignAnswer:
     @property
     def kept(self) -> float:
         """Critical thrust that the ranges keep, in N."""
-        return self.study.keep * (self.best.critical.critical_thrust or 0.0)
+        return self.study.keep * (self.critical.critical_thrust or 0.0)
 
 
 def design_answer(study: DesignStudy, workers: int | None = None, progress: Progress | None = None) -> DesignAnswer:
@@ -110,26 +114,31 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
         study.objective,
         study.target,
         starts=study.starts,
+        cases=study.cases,
+        quantile=study.quantile,
         formulation=how.formulation,
         modes=how.modes,
         progress=partial(tell, "searches"),
     )
     vehicle, gaps = best.vehicle, _Gaps()
     solved = partial(critical_thrust, max_thrust=None, formulation=how.formulation, modes=how.modes)
+    critical = solved(vehicle) if study.cases else best.critical
+    goal = study.keep * (critical.critical_thrust or 0.0)
     ranges = {}
     for number, path in enumerate(space.variables):
         tell("ranges", number, len(space.variables))
-        ranges[path] = _range(study, best, path)
+        ranges[path] = _range(study, best, path, goal)
     charted, refined = _charted(study, best, ranges), None
     if len(charted.axes) == 1:
         chart = study_map(charted, workers=workers, progress=partial(tell, "map"))
     else:
         refined = run_refined(charted, WIDTH, workers=workers, progress=partial(tell, "map"))
         chart = refined.grid
-    slopes = partial(sensitivity, vehicle, formulation=how.formulation, critical=best.critical, modes=how.modes)
+    slopes = partial(sensitivity, vehicle, formulation=how.formulation, critical=critical, modes=how.modes)
     return DesignAnswer(
         study,
         best,
+        critical,
         gaps.unless("the vehicle as given", partial(solved, space.vehicle)),
         ranges,
         chart,
@@ -158,10 +167,10 @@ class _Gaps(list[str]):
             return None
 
 
-def _range(study: DesignStudy, best: Optimum, path: str) -> AllowedInterval:
+def _range(study: DesignStudy, best: Optimum, path: str, goal: float) -> AllowedInterval:
     """The values of a variable around the design, found from there to either bound."""
     one, space, how = study.space.variables[path], study.space, study.solve
-    goal, value = study.keep * (best.critical.critical_thrust or 0.0), best.values[path]
+    value = best.values[path]
     links = {follower: link for follower, link in space.links.items() if link.of == path}
     sides = {}
     for name, (low, high) in {"low": (one.low, value), "high": (value, one.high)}.items():

@@ -121,6 +121,35 @@ def tolerance_cases(
     return tuple(cases)
 
 
+def vertex_cases(factors: Mapping[str, tuple[float, float]]) -> tuple[Case, ...]:
+    """A design as asked for and at every vertex of a box of factors on its quantities.
+
+    Parameters
+    ----------
+    factors : mapping of path to (float, float)
+
+    Returns
+    -------
+    tuple of Case
+        The first is the design itself.
+
+    Raises
+    ------
+    ModelError
+        If there are more than eight quantities.
+
+    Examples
+    --------
+    >>> [case.name for case in vertex_cases({"stage[0].length": (0.9, 1.2)})]
+    ['as designed', 'stage[0].length x 0.9', 'stage[0].length x 1.2']
+    """
+    if len(factors) > MOST_TOLERANCES:
+        raise ModelError([("tolerance", f"at most {MOST_TOLERANCES} quantities, found {len(factors)}")])
+    cases = [dict(zip(factors, corner, strict=True)) for corner in product(*factors.values())] if factors else []
+    names = [", ".join(f"{path} x {factor:g}" for path, factor in case.items()) for case in cases]
+    return (AS_DESIGNED, *(Scattered(name, case) for name, case in zip(names, cases, strict=True)))
+
+
 def sample_cases(uncertain: Uncertain, samples: int = 16, seed: int = 0) -> tuple[Case, ...]:
     """Designs as they come out at random, each quantity scattered about what is asked for as about its median.
 

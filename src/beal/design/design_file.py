@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, FiniteFloat, ValidationError
 
+from beal.design.cases import Case, sample_cases, vertex_cases
 from beal.design.copula import Measure, Pair
 from beal.design.distributions import Distribution
 from beal.design.ranges import thrust_asked
@@ -26,6 +27,7 @@ from beal.vehicle.file import read_toml
 from beal.vehicle.paths import unit_at, value_at
 from beal.vehicle.vehicle import Vehicle
 
+CASES = 32  # vehicles drawn, of which the search counts the weakest but for a share
 NEAR = (0.5, 2.0)  # medians of factors; others were meant as values
 
 
@@ -38,6 +40,8 @@ class QuestionEntry(Part):
     factor: FiniteFloat | None = None
     starts: Annotated[int, Field(ge=1, strict=True)] = 4
     keep: Annotated[float, Field(gt=0, lt=1)] = 0.95
+    robust: Literal["worst", "quantile"] | None = None
+    quantile: Annotated[float, Field(gt=0, lt=1)] = 0.05
 
 
 class VariableEntry(Part):
@@ -93,6 +97,10 @@ class DesignStudy:
         Searches.
     keep : float
         Share of the design's critical thrust that the ranges around it keep.
+    cases : tuple of Case
+        What the design may turn out as, of which the weakest counts; empty where the design itself does.
+    quantile : float
+        Share of the cases that may be weaker.
     axes : tuple of str
         One or two variables of the map; empty for those whose ranges are narrowest.
     points : int
@@ -116,6 +124,8 @@ class DesignStudy:
     question: str
     starts: int
     keep: float
+    cases: tuple[Case, ...]
+    quantile: float
     axes: tuple[str, ...]
     points: int
     laws: Mapping[str, Distribution]
@@ -192,6 +202,8 @@ def _study(entry: DesignEntry, vehicle: Vehicle, folder: Path, text: str) -> Des
         asked.question,
         asked.starts,
         asked.keep,
+        (),
+        0.0,
         entry.map.axes or (),
         entry.map.points,
         laws,
@@ -203,12 +215,22 @@ def _study(entry: DesignEntry, vehicle: Vehicle, folder: Path, text: str) -> Des
         entry.solve.solve,
         text,
     )
-    _check_scatter(study)
+    middle = _checked(study)
+    if asked.robust == "worst":
+        if not (tolerances or entry.scenario):
+            raise ModelError([("design.robust", "worst needs [tolerance] or [scenario.NAME], found neither")])
+        return replace(study, cases=(*vertex_cases(tolerances), *entry.scenarios))
+    if asked.robust == "quantile":
+        uncertain = study.scattered(middle)
+        if uncertain is None:
+            raise ModelError([("design.robust", "quantile needs [uncertain], found none")])
+        cases = sample_cases(uncertain, CASES, drawn.seed)
+        return replace(study, cases=cases, quantile=asked.quantile)
     return study
 
 
-def _check_scatter(study: DesignStudy) -> None:
-    """Refuses before any search what could not be answered after it."""
+def _checked(study: DesignStudy) -> Vehicle:
+    """The vehicle in the middle; what could not be answered after the search is refused before it."""
     bad, middle = [], study.space.at(study.space.nearest(np.full(len(study.space.variables), 0.5)))
     for path, law in study.laws.items():
         if not NEAR[0] <= law.median <= NEAR[1]:
@@ -226,6 +248,7 @@ def _check_scatter(study: DesignStudy) -> None:
     study.scattered(middle)
     for case in study.scenarios:
         case.applied(middle)
+    return middle
 
 
 def _factor(needed: str, found: object) -> str:

@@ -51,7 +51,7 @@ def design_map(answer: DesignAnswer, ax: "Axes | None" = None) -> "Axes":
 def _place(answer: DesignAnswer) -> tuple[float, float]:
     dims = [str(name) for name in answer.chart.critical_thrust.dims]
     found = [answer.best.values[path] for path in dims]
-    return (found[0], answer.best.critical.critical_thrust or 0.0) if len(found) == 1 else (found[0], found[1])
+    return (found[0], answer.critical.critical_thrust or 0.0) if len(found) == 1 else (found[0], found[1])
 
 
 def _line(answer: DesignAnswer, ax: "Axes") -> None:
@@ -72,7 +72,7 @@ def _line(answer: DesignAnswer, ax: "Axes") -> None:
     ax.axhline(answer.kept, color=BLACK, linewidth=0.8, linestyle=":", label=_kept_label(answer))
     ax.set_xscale(spacing_of(x))
     ax.set_xlim(x[0], x[-1])
-    ax.set_ylim(0.0, 1.1 * max(float(np.nanmax(thrust)), answer.best.critical.critical_thrust or 0.0))
+    ax.set_ylim(0.0, 1.1 * max(float(np.nanmax(thrust)), answer.critical.critical_thrust or 0.0))
     si = chart.attrs.get("units") == "SI"
     ax.set_xlabel(axis_label(path, si))
     ax.set_ylabel(axis_label("critical_thrust", si))
