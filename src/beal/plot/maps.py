@@ -9,8 +9,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
-from beal.plot.refined import draw, regions
-from beal.plot.style import BLACK, axes, style
+from beal.plot.refined import draw, highest, regions
+from beal.plot.style import BLACK, axes, style, thrust_unit
 from beal.study.lattice import spacing_of
 from beal.study.refined import RefinedMap
 
@@ -79,7 +79,10 @@ def stability_map(
         ax.set_xlim(x_edges[0], x_edges[-1])
         ax.set_ylim(y_edges[0], y_edges[-1])
         if colorbar:
-            ax.figure.colorbar(mesh, ax=ax, label=axis_label("critical_thrust", si))
+            size, unit = thrust_unit(highest(grid), not si)
+            label = f"critical thrust P ({unit})" if si else axis_label("critical_thrust", si)
+            bar = ax.figure.colorbar(mesh, ax=ax, label=label)
+            bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value / size:g}")
         return ax
 
 

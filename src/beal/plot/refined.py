@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from beal.errors import ModelError
-from beal.plot.style import BLACK
+from beal.plot.style import BLACK, thrust_unit
 from beal.study.refine import JUMP
 
 if TYPE_CHECKING:
@@ -42,6 +42,12 @@ def regions(chart: "Dataset") -> Integers:
     return np.where(kind == 0, 0, 10_000 * kind + 100 * low + high)
 
 
+def highest(chart: "Dataset") -> float:
+    """The largest critical thrust of a grid, 0 where all is stable."""
+    thrust = np.asarray(chart.critical_thrust, dtype=float)
+    return float(thrust[np.isfinite(thrust)].max(initial=0.0))
+
+
 def draw(ax: "Axes", found: "RefinedMap", levels: Sequence[float] | None) -> ScalarMappable:
     """Colour, hatching, borders and contour lines of a refined map, along the spacing of its axes.
 
@@ -65,8 +71,9 @@ def draw(ax: "Axes", found: "RefinedMap", levels: Sequence[float] | None) -> Sca
     jumps = ~beside & _at_jumps(found, points, triangles) & (_change(thrust[triangles]) > JUMP)
     inside = ~parted & ~jumps & np.all(np.isfinite(thrust[triangles]), axis=1)
 
+    size, _ = thrust_unit(highest(found.grid), found.grid.attrs.get("units") != "SI")
     colours = (
-        _colours(ax, Triangulation(x, y, triangles[inside]), np.nan_to_num(thrust), levels, spacing)
+        _colours(ax, Triangulation(x, y, triangles[inside]), np.nan_to_num(thrust), levels, spacing, size)
         if inside.any()
         else ScalarMappable(cmap="viridis")
     )
@@ -134,8 +141,9 @@ def _cuts(points: Array, thrust: Array, triangles: Integers) -> Array:
 
 
 def _colours(
-    ax: "Axes", mesh: Triangulation, thrust: Array, levels: Sequence[float] | None, spacing: Transform
+    ax: "Axes", mesh: Triangulation, thrust: Array, levels: Sequence[float] | None, spacing: Transform, size: float
 ) -> ScalarMappable:
+    """The numbers at contour lines are in units of a size."""
     place = spacing + ax.transData
     colours: TriMesh | TriContourSet
     if levels is None:
@@ -150,8 +158,8 @@ def _colours(
     drawn.set_transform(place)
     where = [spacing.transform(place) for place in _numbered(drawn.allsegs, mesh)]
     if where:
-        for text in ax.clabel(drawn, manual=where, fontsize=6.5, fmt="%g"):
-            behind = colours.to_rgba(np.array([float(text.get_text())]))[0]
+        for text in ax.clabel(drawn, manual=where, fontsize=6.5, fmt=lambda level: f"{level / size:g}"):
+            behind = colours.to_rgba(np.array([float(text.get_text()) * size]))[0]
             text.set_path_effects([withStroke(linewidth=2.0, foreground=behind)])
     return colours
 
