@@ -19,7 +19,6 @@ from matplotlib.figure import Figure
 
 import beal
 from beal import plot
-from beal.design.cases import vertex_cases
 from beal.vehicle.paths import with_values
 
 SPLIT, TURNING, SLIDING = "stage.split", "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
@@ -42,10 +41,8 @@ def main(starts: int = 8, figure: str = "") -> None:
         found = beal.optimise(space, starts=starts, formulation=name, modes=modes, progress=_counted(name))
         best[name] = found
         _tell(name, found.values)
-    near = best["objective"].values
-    robust = beal.optimise(space, start=near, starts=2, cases=vertex_cases(TOLERANCES), progress=_counted("robust"))
+    robust, weakest = beal.robust_optimum(space, TOLERANCES, start=best["objective"].values)
     _tell("robust", robust.values)
-    weakest = beal.worst_case(robust.vehicle, _box(robust.values))
     print(f"  weakest within the tolerances: {weakest.critical_thrust:.3f}")
     weakest = beal.worst_case(best["objective"].vehicle, _box(best["objective"].values))
     print(f"  that of the best under objective: {weakest.critical_thrust:.3f}")
@@ -104,7 +101,7 @@ def _drawn(best: dict[str, beal.Optimum], robust: beal.Optimum, path: Path) -> N
             if name == "objective":
                 ax.plot(robust.values[SPLIT], robust.values[SLIDING], "o", **_marked(7))
             turning = found.values[TURNING]
-            ax.set_title(f"{name}: {found.critical.critical_thrust:.1f} with $k_r$ = {turning:.4g}")
+            ax.set_title(f"{name}: {found.critical.critical_thrust:.1f} with $k_r$ = {turning:g}")
         drawing.savefig(path, dpi=110)
 
 

@@ -27,7 +27,8 @@ if _typing.TYPE_CHECKING:
     )
     from beal.design.answer import DesignAnswer, design_answer
     from beal.design.border import BorderPiece, SpringBorder, spring_border
-    from beal.design.cases import flight_cases, sample_cases, tolerance_cases
+    from beal.design.cases import flight_cases, sample_cases, tolerance_cases, vertex_cases
+    from beal.design.cutting import robust_optimum
     from beal.design.design_file import DesignStudy, load_design
     from beal.design.distributions import Distribution
     from beal.design.frequencies import FrequencySensitivity, frequency_sensitivity
@@ -212,6 +213,7 @@ _HOMES = {
     "probability_of_instability": "beal.design.reliability",
     "refined_map": "beal.study.refined",
     "response": "beal.motion",
+    "robust_optimum": "beal.design.cutting",
     "sample": "beal.design.sampling",
     "sample_cases": "beal.design.cases",
     "scenarios": "beal.design.robust",
@@ -229,6 +231,7 @@ _HOMES = {
     "transient_growth": "beal.motion",
     "vanishing_damping_limit": "beal.stability.vanishing",
     "verify": "beal.verification.run",
+    "vertex_cases": "beal.design.cases",
     "worst_case": "beal.design.robust",
 }
 
@@ -342,6 +345,7 @@ __all__ = [
     "probability_of_instability",
     "refined_map",
     "response",
+    "robust_optimum",
     "sample",
     "sample_cases",
     "scenarios",
@@ -359,6 +363,7 @@ __all__ = [
     "transient_growth",
     "vanishing_damping_limit",
     "verify",
+    "vertex_cases",
     "worst_case",
 ]
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
+from beal.design.cutting import robust_optimum
 from beal.design.design_file import DesignStudy
 from beal.design.optimise import Optimum, optimise
 from beal.design.ranges import AllowedInterval, allowed_range
@@ -109,17 +110,7 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
     """
     tell = progress or _silent
     space, how = study.space, study.solve
-    best = optimise(
-        space,
-        study.objective,
-        study.target,
-        starts=study.starts,
-        cases=study.cases,
-        quantile=study.quantile,
-        formulation=how.formulation,
-        modes=how.modes,
-        progress=partial(tell, "searches"),
-    )
+    best, weakest = _best(study, workers, tell)
     vehicle, gaps = best.vehicle, _Gaps()
     solved = partial(critical_thrust, max_thrust=None, formulation=how.formulation, modes=how.modes)
     critical = solved(vehicle) if study.cases else best.critical
@@ -144,7 +135,7 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
         chart,
         refined,
         gaps.unless("sensitivities", slopes),
-        gaps.unless("worst case", partial(_worst, study, vehicle, workers, partial(tell, "worst case"))),
+        weakest or gaps.unless("worst case", partial(_worst, study, vehicle, workers, partial(tell, "worst case"))),
         gaps.unless("scatter", partial(_scatter, study, vehicle, workers, partial(tell, "scatter"))),
         gaps.unless("scenarios", lambda: scenarios(vehicle, study.scenarios, how) if study.scenarios else []) or [],
         tuple(gaps),
@@ -153,6 +144,35 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
 
 def _silent(text: str, done: int, total: int) -> None:
     pass
+
+
+def _best(study: DesignStudy, workers: int | None, tell: Progress) -> tuple[Optimum, WorstCase | None]:
+    """The best design, and the weakest vehicle of its tolerances where that is what counts."""
+    how = study.solve
+    if study.cases and not study.quantile:
+        return robust_optimum(
+            study.space,
+            study.tolerances,
+            study.objective,
+            study.target,
+            starts=study.starts,
+            solve=how,
+            cases=study.scenarios,
+            workers=workers,
+            progress=tell,
+        )
+    best = optimise(
+        study.space,
+        study.objective,
+        study.target,
+        starts=study.starts,
+        cases=study.cases,
+        quantile=study.quantile,
+        formulation=how.formulation,
+        modes=how.modes,
+        progress=partial(tell, "searches"),
+    )
+    return best, None
 
 
 class _Gaps(list[str]):
