@@ -22,12 +22,12 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")}
 NAMES = (
     *("clusters", "control", "design", "explorer", "flight", "interop", "maps", "model", "motion", "notebook"),
-    *("pulsating", "sensitivity", "uncertainty", "design_study"),
+    *("pulsating", "sensitivity", "uncertainty", "design_study", "paper_question"),
 )
 CLUSTERS, CONTROL, DESIGN, EXPLORER, FLIGHT, INTEROP, MAPS, MODEL, MOTION, NOTEBOOK, *LATER = (
     PAGES.get(name, "") for name in NAMES
 )
-PULSATING, SENSITIVITY, UNCERTAINTY, STUDY = LATER
+PULSATING, SENSITIVITY, UNCERTAINTY, STUDY, QUESTION = LATER
 BEAL = [str(Path(sys.executable).with_name("beal"))]
 
 PRINTED = {
@@ -109,6 +109,7 @@ def test_every_page_of_the_docs_is_executed():
 
     assert set(re.findall(r"^```(\w+)$", SENSITIVITY, re.MULTILINE)) == {"console", "python"}
     assert set(re.findall(r"^```(\w+)$", STUDY, re.MULTILINE)) == {"toml", "console"}
+    assert "```" not in QUESTION  # its numbers are tested one by one
 
 
 def test_the_command_of_the_page_on_uncertainty_prints_what_is_shown(tmp_path):
