@@ -11,7 +11,6 @@ from beal.cli.loaded import vehicle_of
 from beal.cli.options import AsJson, Figure, Model
 from beal.cli.output import emit, new_file, note, progress_bar, show_table, write_columns
 from beal.report.numbers import cell
-from beal.report.records import flight_record, stage_range
 
 if TYPE_CHECKING:
     from beal.study.flight import Flight, FlightState
@@ -29,6 +28,7 @@ def flight(
 ) -> None:
     """Mass, frequencies, critical thrust and margin at every time of a flight."""
     from beal.cli import NOT_CONVERGED
+    from beal.report.records import flight_record
     from beal.study.flight import flight as fly
 
     vehicle = vehicle_of(model)
@@ -53,6 +53,8 @@ def _columns(found: "Flight") -> dict[str, Any]:
     """The same with a column for each mode, and nothing where there is no number."""
     import numpy as np
 
+    from beal.report.records import flight_record
+
     columns: dict[str, Any] = {}
     for name, values in flight_record(found).items():
         if name == "units":
@@ -73,6 +75,8 @@ def _known(value: Any) -> Any:
 
 
 def _show(found: "Flight") -> None:
+    from beal.report.records import stage_range
+
     si = found.units == "SI"
     staged = len({state.stages for state in found.states}) > 1
     scale, unit = (2 * math.pi, " [Hz]") if si else (1.0, "")
