@@ -139,3 +139,13 @@ def test_without_thrust_nothing_is_controlled_and_nothing_breaks(written, result
     assert "P = 0: stable; 4 zero roots" in beal_here("control", model, "--thrust", 0).stdout
     result_of("control", model, "--thrust", 0, "--draw", drawn, "--figure", "open.png")
     assert (tmp_path / "open.png").is_file()
+
+
+def test_a_frequency_at_an_undamped_pole_is_left_out_of_the_plot(beal, tmp_path):
+    beal("example", "tsto", "-o", "model.toml")
+    gains = '[{sensor = "imu", quantity = "slope", gain = 0.5}]'
+    with (tmp_path / "model.toml").open("a", encoding="utf-8") as file:
+        file.write(f"\n[control]\nlag = 0.02\ngains = {gains}\n")
+    done = beal("control", "model.toml", "--figure", "a.png", "--draw", "nyquist")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "a.png").stat().st_size > 10_000

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 Array = np.ndarray[Any, np.dtype[Any]]
 DECADES, EACH = (-2.0, 1.0), 400  # below the slowest pole and beyond the fastest of modes; points of a decade
 BESIDE = np.sinh(np.linspace(-6.0, 6.0, 121))  # points beside a resonance, in its half widths
+UNDAMPED = 1e-9  # of the frequency, nearer than which to a pole L has no value
 REACH = 3.0  # from the origin, of what Nyquist's plot shows
 ARROWS = 2.0  # distance from one to the next
 DECIBELS = (-40.0, 30.0)
@@ -115,7 +116,7 @@ def nichols(loop: StateSpace, ax: "Axes | None" = None, margins: Margins | None 
 
 
 def frequencies(loop: StateSpace) -> Array:
-    """Where to look at a loop: evenly over its decades, and close together beside its resonances."""
+    """Where to look at a loop: evenly over its decades, close together beside its resonances, and not at a pole."""
     poles = np.linalg.eigvals(loop.A)
     size = np.abs(poles)[np.abs(poles) > 1e-6 * np.abs(poles).max()]
     swings = poles[poles.imag > 0]
@@ -124,7 +125,9 @@ def frequencies(loop: StateSpace) -> Array:
     even = np.logspace(low, high, round((high - low) * EACH))
     width = np.maximum(np.abs(swings.real), 1e-4 * swings.imag)
     near = (swings.imag[:, None] + width[:, None] * BESIDE).ravel()
-    return np.unique(np.concatenate((even, near[(near > even[0]) & (near < even[-1])])))
+    omega = np.unique(np.concatenate((even, near[(near > even[0]) & (near < even[-1])])))
+    apart = np.abs(1j * omega[:, None] - poles).min(axis=1)
+    return np.asarray(omega[apart > UNDAMPED * omega])
 
 
 def _response(loop: StateSpace, omega: Array) -> Array:

@@ -14,7 +14,6 @@ from beal.vehicle.vehicle import Vehicle
 from beal.web import questions as ask
 from beal.web.vehicles import vehicle_of
 
-UNDAMPED = 1e-9  # of the frequency, nearer than which to a pole L has no value
 Answer = dict[str, Any]
 
 
@@ -53,8 +52,6 @@ def loop(question: ask.Loop) -> Answer:
     margins = stability_margins(vehicle, thrust, question.modes)
     opened = open_loop(vehicle, thrust, question.modes)
     omega = frequencies(opened)
-    apart = np.abs(1j * omega[:, None] - np.linalg.eigvals(opened.A)).min(axis=1)
-    omega = omega[apart > UNDAMPED * omega]
     L = np.array([opened.frequency_response(w)[0, 0] for w in omega])
     return {**control_record(vehicle, found, margins), "open_loop": {"angular_frequency": omega, "value": pairs(L)}}
 
