@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from beal.stability.curve import ThrustCurve
     from beal.vehicle.vehicle import Vehicle
 
-DRAWN, POINTS = 1.3, 151  # thrusts of a figure: over the critical one, and their number
+POINTS = 151  # thrusts of a figure
 MOST = 14  # modes in a figure
 GROWTH = ("thrust", "growth", "instant", "lower_bound", "upper_bound")
 BESIDE = {"undamped": "without its damping", "vanishing_damping": "in the limit of vanishing damping"}
@@ -103,11 +103,12 @@ def critical(
 def _curve(vehicle: "Vehicle", found: "CriticalThrust", size: int | None, every: bool) -> "ThrustCurve":
     """The modes that meet, and those below, to a little beyond the critical thrust or over all that was searched."""
     from beal.discretisation.build import discretise
+    from beal.report.verdict import shown_to
     from beal.stability.curve import MODES, thrust_curve
     from beal.stability.large import Reduction, is_large
 
     shown = found.elastic or found
-    to = found.searched_to if every or not shown.critical_thrust else DRAWN * shown.critical_thrust
+    to = found.searched_to if every else shown_to(found)
     highest = max(shown.modes or (0,))
     count = min(highest, size or MOST) if highest > MODES else None
     formulation: Any = found.formulation

@@ -89,7 +89,7 @@ def _answer(found: "DesignAnswer") -> Answer:
     if study.cases:
         weakest = "the weakest" if not study.quantile else f"the weakest but for {study.quantile:.0%}"
         told.insert(
-            0, f"{weakest} of {len(study.cases)} cases, {best.case}: {instability(best.vehicle, best.critical)}"
+            0, f"{weakest} of {len(best.case_thrusts)} cases, {best.case}: {instability(best.vehicle, best.critical)}"
         )
     told.append(f"{how}; nothing proves that no other design is better")
     if len(best.active) > 1:

@@ -120,13 +120,9 @@ def _significant(elasticity: float) -> float:
 
 
 def _warning(rival: "Rival") -> str:
-    event = rival.event
-    pair = " and ".join(map(str, dict.fromkeys(event.modes)))
-    what = "comes" if event.change == "destabilises" else "ends"
-    return (
-        f"close by: {event.kind} of modes {pair} {what} {100 * rival.distance:.2g} % above; "
-        "a change of the vehicle may make the critical thrust jump or give it a kink"
-    )
+    from beal.report.verdict import close_by
+
+    return f"{close_by(rival)}; a change of the vehicle may make the critical thrust jump or give it a kink"
 
 
 def _cliff(found: "Sensitivity", touch: "Touch") -> str:

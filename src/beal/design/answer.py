@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
-from beal.design.cutting import robust_optimum
+from beal.design.cutting import robust_optimum, silent
 from beal.design.design_file import DesignStudy
 from beal.design.optimise import Optimum, optimise
 from beal.design.ranges import AllowedInterval, allowed_range
@@ -82,7 +82,7 @@ class DesignAnswer:
     @property
     def kept(self) -> float:
         """Critical thrust that the ranges keep, in N."""
-        return self.study.keep * (self.critical.critical_thrust or 0.0)
+        return _kept(self.study, self.critical)
 
 
 def design_answer(study: DesignStudy, workers: int | None = None, progress: Progress | None = None) -> DesignAnswer:
@@ -108,13 +108,13 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
     ConvergenceError
         If the best design is not confirmed.
     """
-    tell = progress or _silent
+    tell = progress or silent
     space, how = study.space, study.solve
     best, weakest = _best(study, workers, tell)
     vehicle, gaps = best.vehicle, _Gaps()
     solved = partial(critical_thrust, max_thrust=None, formulation=how.formulation, modes=how.modes)
     critical = solved(vehicle) if study.cases else best.critical
-    goal = study.keep * (critical.critical_thrust or 0.0)
+    goal = _kept(study, critical)
     ranges = {}
     for number, path in enumerate(space.variables):
         tell("ranges", number, len(space.variables))
@@ -142,8 +142,8 @@ def design_answer(study: DesignStudy, workers: int | None = None, progress: Prog
     )
 
 
-def _silent(text: str, done: int, total: int) -> None:
-    pass
+def _kept(study: DesignStudy, critical: CriticalThrust) -> float:
+    return study.keep * (critical.critical_thrust or 0.0)
 
 
 def _best(study: DesignStudy, workers: int | None, tell: Progress) -> tuple[Optimum, WorstCase | None]:

@@ -5,12 +5,11 @@ from functools import partial
 
 from beal.design.cases import Case, Scattered, vertex_cases
 from beal.design.optimise import Optimum, optimise
-from beal.design.robust import WorstCase, worst_case
+from beal.design.robust import WorstCase, box_around, worst_case
 from beal.design.variables import DesignSpace
 from beal.design.worth import Objective
 from beal.study.study import Solve
 from beal.vehicle.paths import value_at
-from beal.vehicle.vehicle import Vehicle
 
 Progress = Callable[[str, int, int], None]
 
@@ -74,7 +73,7 @@ def robust_optimum(
     >>> best.values[path], round(weakest.critical_thrust, 4)
     (2.0, 36.0917)
     """
-    how, tell = solve or Solve(), progress or _silent
+    how, tell = solve or Solve(), progress or silent
     counted = [*vertex_cases(factors), *cases]
     weakest = None
     for number in range(1, ROUNDS + 1):
@@ -91,7 +90,7 @@ def robust_optimum(
         )
         if not factors:
             break
-        box = _box(best.vehicle, factors)
+        box = box_around(best.vehicle, factors)
         weakest = worst_case(best.vehicle, box, how, workers, partial(tell, f"round {number}, attack"))
         if weakest.critical_thrust >= (1 - HELD) * min(best.case_thrusts):
             break
@@ -101,10 +100,5 @@ def robust_optimum(
     return best, weakest
 
 
-def _box(vehicle: Vehicle, factors: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    values = {path: value_at(vehicle, path) for path in factors}
-    return {path: (low * values[path], high * values[path]) for path, (low, high) in factors.items()}
-
-
-def _silent(text: str, done: int, total: int) -> None:
-    pass
+def silent(text: str, done: int, total: int) -> None:
+    """Progress that nobody is told."""

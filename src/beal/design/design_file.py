@@ -7,23 +7,21 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, FiniteFloat, ValidationError
+from pydantic import Field, FiniteFloat
 
 from beal.design.cases import Case, sample_cases, vertex_cases
 from beal.design.copula import Measure, Pair
 from beal.design.distributions import Distribution
 from beal.design.ranges import thrust_asked
-from beal.design.robust import Scenario
+from beal.design.robust import Scenario, box_around
 from beal.design.scatter_file import SamplingEntry, ScatterEntry
 from beal.design.uncertain import Uncertain
 from beal.design.variables import DesignSpace, LinearBound, Variable
 from beal.design.worth import Objective
 from beal.errors import ModelError
-from beal.interop.files import load
-from beal.study.file import Given, LinkEntry, number
+from beal.study.file import Given, LinkEntry, number, read_study
 from beal.study.study import Solve
-from beal.vehicle.base import Part, problems, si
-from beal.vehicle.file import read_toml
+from beal.vehicle.base import Part, si
 from beal.vehicle.paths import unit_at, value_at
 from beal.vehicle.vehicle import Vehicle
 
@@ -146,8 +144,7 @@ class DesignStudy:
 
     def box(self, vehicle: Vehicle) -> dict[str, tuple[float, float]]:
         """Ends of the quantities of a vehicle of the space that have tolerances."""
-        values = {path: value_at(vehicle, path) for path in self.tolerances}
-        return {path: (low * values[path], high * values[path]) for path, (low, high) in self.tolerances.items()}
+        return box_around(vehicle, self.tolerances)
 
 
 def load_design(path: str | Path) -> DesignStudy:
@@ -166,15 +163,9 @@ def load_design(path: str | Path) -> DesignStudy:
     ModelError
         With the problems of the file, or of the model that it names.
     """
-    raw, folder = read_toml(path), Path(path).parent
+    entry, vehicle = read_study(path, DesignEntry)
     try:
-        entry = DesignEntry.model_validate(raw)
-    except ValidationError as error:
-        found = problems(error, DesignEntry)
-        raise ModelError([(f"{path}: {where}", message) for where, message in found]) from None
-    vehicle = load(folder / entry.model)
-    try:
-        return _study(entry, vehicle, folder, Path(path).read_text(encoding="utf-8"))
+        return _study(entry, vehicle, Path(path).parent, Path(path).read_text(encoding="utf-8"))
     except ModelError as error:
         raise ModelError(error.problems, str(path)) from None
     except ValueError as error:

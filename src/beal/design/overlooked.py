@@ -43,15 +43,9 @@ def overlooked(vehicle: Vehicle, to: float, order: int, formulation: Formulation
         Where the first such pair is deepest in flutter.
     """
     full = pencil(discretise(vehicle, formulation, order=order))
-    shift = full.shift * full.M
-
-    def roots(thrust: float) -> NDArray[np.complex128]:
-        inverse = np.linalg.eigvals(np.linalg.solve(full.stiffness(thrust) + shift, full.M)).astype(complex)
-        found = 1 / inverse[np.argsort(-inverse.real)][:LOWEST] - full.shift
-        return np.asarray(found[np.argsort(found.real)])
 
     def difference(thrust: float) -> Array:
-        found = roots(thrust)
+        found = full.lowest(thrust, LOWEST)
         return np.asarray((np.diff(found) ** 2).real / np.abs(found[1:]) ** 2)
 
     thrusts = np.linspace(0.0, to * (1 - SHORT), STEPS + 1)[1:]
@@ -66,7 +60,7 @@ def overlooked(vehicle: Vehicle, to: float, order: int, formulation: Formulation
         if least.fun < COMPLEX:
             place = float(least.x)
             modes = int(pair) + 1, int(pair) + 2
-            return Event(place, float(roots(place)[pair].real), "flutter", modes, 2, 0)
+            return Event(place, float(full.lowest(place, LOWEST)[pair].real), "flutter", modes, 2, 0)
     return None
 
 

@@ -50,6 +50,12 @@ class WorstCase:
     evaluations: int
 
 
+def box_around(vehicle: Vehicle, factors: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    """Ends of quantities, given those of factors on a vehicle's values."""
+    values = {path: value_at(vehicle, path) for path in factors}
+    return {path: (low * values[path], high * values[path]) for path, (low, high) in factors.items()}
+
+
 @dataclass(frozen=True)
 class Scenario:
     """A named imperfection.

@@ -21,7 +21,7 @@ from beal.stability.threads import one_thread
 from beal.study.blocks import ALONE, DAMPED
 from beal.study.run import SMALL, Processes, cores, run
 from beal.study.solve import solve_points
-from beal.study.store import STATUS
+from beal.study.store import KINDS, STATUS
 from beal.study.study import Solve, Study
 from beal.vehicle.vehicle import Vehicle
 
@@ -68,6 +68,11 @@ class Sample(Shown):
     replicates: int
     truncated: dict[str, float] = field(default_factory=dict)
     units: Literal["SI", "nondimensional"] = "SI"
+
+    @property
+    def kinds(self) -> dict[str, int]:
+        """How many are stable to the thrust searched to, flutter and diverge."""
+        return {name: int((self.kind == n).sum()) for n, name in enumerate(KINDS)}
 
     @property
     def failed(self) -> int:

@@ -13,7 +13,7 @@ from beal.design.distributions import Distribution
 from beal.design.robust import Scenario
 from beal.design.sampling import Method
 from beal.errors import ModelError
-from beal.study.file import Given, SolveEntry, number
+from beal.study.file import Given, ModelEntry, SolveEntry, number
 from beal.vehicle.base import Part
 
 Units = Callable[[str], str]  # the unit in which the quantity at a path is kept
@@ -112,10 +112,9 @@ class ToleranceEntry(Part):
     high: Given
 
 
-class ScatterEntry(Part):
+class ScatterEntry(ModelEntry):
     """What the files of ``beal uncertainty`` and ``beal design`` share."""
 
-    model: str
     uncertain: dict[str, LawEntry] = Field(default_factory=dict)
     correlation: CorrelationEntry = CorrelationEntry()
     sampling: SamplingEntry = SamplingEntry()

@@ -98,7 +98,7 @@ def dips(full: Pencil, to: float) -> Iterator[Dip]:
     for n, mode in np.argwhere(inside).tolist():
         ends = (float(thrusts[n]), float(thrusts[n + 2]))
         least = minimize_scalar(partial(_gap, full, mode), bounds=ends, method="bounded", options={"xatol": 1e-9 * to})
-        roots = _roots(full, float(least.x)).real[max(mode - 1, 0) : mode + 1]
+        roots = full.lowest(float(least.x), LOWEST).real[max(mode - 1, 0) : mode + 1]
         yield Dip(float(least.x), (mode or 1, mode + 1), float(least.fun), tuple(roots.tolist()))
 
 
@@ -117,14 +117,7 @@ def _gaps(roots: ComplexArray) -> Array:
 
 
 def _gap(full: Pencil, mode: int, thrust: float) -> float:
-    return float(_gaps(_roots(full, thrust))[mode])
-
-
-def _roots(full: Pencil, thrust: float) -> ComplexArray:
-    """The lowest W in order."""
-    inverse = np.linalg.eigvals(np.linalg.solve(full.stiffness(thrust) + full.shift * full.M, full.M)).astype(complex)
-    found = 1 / inverse[np.argsort(-inverse.real)][:LOWEST] - full.shift
-    return np.asarray(found[np.argsort(found.real)])
+    return float(_gaps(full.lowest(thrust, LOWEST))[mode])
 
 
 def _root_slope(full: Pencil, thrust: float, W: float, change: Pencil) -> float:

@@ -5,17 +5,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from beal.design.robust import Scenario
 from beal.design.sampling import Method
 from beal.design.scatter_file import LawEntry, ScatterEntry
 from beal.design.uncertain import Uncertain
 from beal.errors import ModelError
-from beal.interop.files import load
+from beal.study.file import read_study
 from beal.study.study import Solve
-from beal.vehicle.base import problems
-from beal.vehicle.file import read_toml
 from beal.vehicle.paths import unit_at
 from beal.vehicle.vehicle import Vehicle
 
@@ -68,15 +64,9 @@ def load_uncertainty(path: str | Path) -> UncertaintyStudy:
     ModelError
         With every problem of the file, or of the model that it names.
     """
-    raw, folder = read_toml(path), Path(path).parent
+    entry, vehicle = read_study(path, UncertaintyEntry)
     try:
-        entry = UncertaintyEntry.model_validate(raw)
-    except ValidationError as error:
-        found = problems(error, UncertaintyEntry)
-        raise ModelError([(f"{path}: {where}", message) for where, message in found]) from None
-    vehicle = load(folder / entry.model)
-    try:
-        laws, tolerances = entry.scatter(folder, partial(unit_at, vehicle))
+        laws, tolerances = entry.scatter(Path(path).parent, partial(unit_at, vehicle))
         uncertain = Uncertain(vehicle, laws, entry.correlation.by_pair(), entry.correlation.measure)
     except ModelError as error:
         raise ModelError(error.problems, str(path)) from None

@@ -11,6 +11,7 @@ from beal.design.sensitivity import Sensitivity
 from beal.notebook.pictures import HIGH, picture, verdict
 from beal.report import table
 from beal.report.numbers import cell, quantity
+from beal.report.verdict import close_by
 from beal.study.refined import RefinedMap
 
 QUANTILES = (0.1, 0.5, 0.9)  # 64 vehicles, the fewest there may be, are enough for their intervals
@@ -32,10 +33,7 @@ def sensitivity(found: Sensitivity) -> Iterator[str]:
     thrust = quantity(critical.critical_thrust or 0.0, force, critical.error_estimate)
     yield verdict(f"{critical.kind} at P = {thrust}; derivatives: {found.status}")
     for rival in found.rivals:
-        event = rival.event
-        change = "comes" if event.change == "destabilises" else "ends"
-        modes = " and ".join(map(str, dict.fromkeys(event.modes)))
-        yield f"<p>close by: {event.kind} of modes {modes} {change} {100 * rival.distance:.2g} % above</p>"
+        yield f"<p>{close_by(rival)}</p>"
     shown = found.ranked[:MOST]
     if not shown:
         yield "<p>none of the quantities has an effect</p>"
@@ -61,7 +59,7 @@ def sample(found: Sample) -> Iterator[str]:
     str
     """
     si = found.units == "SI"
-    kinds = [f"{int((found.kind == n).sum())} {name}" for n, name in enumerate(("stable", "flutter", "divergence"))]
+    kinds = [f"{number} {name}" for name, number in found.kinds.items()]
     yield verdict(f"{found.count} vehicles: {', '.join(kinds)}, {found.failed} not solved")
     if found.failed == found.count:
         return

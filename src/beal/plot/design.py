@@ -7,7 +7,7 @@ import numpy as np
 from beal.design.answer import DesignAnswer
 from beal.plot.maps import DIVERGENCE, axis_label, stability_map
 from beal.plot.refined import regions
-from beal.plot.style import BLACK, BLUE, ORANGE, VERMILION, axes, style, thrust_unit
+from beal.plot.style import BLACK, BLUE, ORANGE, VERMILION, axes, style, thrust_label, thrust_unit
 from beal.study.lattice import spacing_of
 
 if TYPE_CHECKING:
@@ -74,9 +74,10 @@ def _line(answer: DesignAnswer, ax: "Axes") -> None:
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(0.0, 1.1 * max(float(np.nanmax(thrust)), answer.critical.critical_thrust or 0.0))
     si = chart.attrs.get("units") == "SI"
-    size, unit = thrust_unit(float(np.nanmax(thrust)), not si)
+    top = float(np.nanmax(thrust))
+    size, _ = thrust_unit(top, not si)
     ax.set_xlabel(axis_label(path, si))
-    ax.set_ylabel(f"critical thrust P ({unit})" if si else axis_label("critical_thrust", si))
+    ax.set_ylabel(f"critical {thrust_label(top, not si)}")
     ax.yaxis.set_major_formatter(lambda value, _: f"{value / size:g}")
 
 

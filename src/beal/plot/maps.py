@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
 from beal.plot.refined import draw, highest, regions
-from beal.plot.style import BLACK, axes, style, thrust_unit
+from beal.plot.style import BLACK, axes, style, thrust_label, thrust_unit
 from beal.study.lattice import spacing_of
 from beal.study.refined import RefinedMap
 
@@ -24,7 +24,6 @@ FLUTTER, DIVERGENCE = 1, 2
 NARROW = 0.3  # share of the width below which a region's label stands upright
 SMALLEST_LABEL = 0.008  # share of the map below which a region carries no name
 NAMES = {  # non-dimensional, and in SI units
-    "critical_thrust": ("critical thrust $P L^2/EI$", "critical thrust P (N)"),
     "stage.split": ("place of the first joint $x/L$",) * 2,
     "rotational_stiffness": ("rotational stiffness $k_r L/EI$", "rotational stiffness $k_r$ (N m/rad)"),
     "shear_stiffness": ("shear stiffness $k_s L^3/EI$", "shear stiffness $k_s$ (N/m)"),
@@ -79,9 +78,8 @@ def stability_map(
         ax.set_xlim(x_edges[0], x_edges[-1])
         ax.set_ylim(y_edges[0], y_edges[-1])
         if colorbar:
-            size, unit = thrust_unit(highest(grid), not si)
-            label = f"critical thrust P ({unit})" if si else axis_label("critical_thrust", si)
-            bar = ax.figure.colorbar(mesh, ax=ax, label=label)
+            size, _ = thrust_unit(highest(grid), not si)
+            bar = ax.figure.colorbar(mesh, ax=ax, label=f"critical {thrust_label(highest(grid), not si)}")
             bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value / size:g}")
         return ax
 

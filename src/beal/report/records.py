@@ -15,7 +15,6 @@ from beal.stability.curve import ThrustCurve
 from beal.stability.pencil import ComplexArray
 from beal.stability.spectrum import Spectrum
 from beal.study.flight import Flight, FlightState
-from beal.study.store import KINDS
 from beal.vehicle.vehicle import Vehicle
 
 QUANTILES = (0.01, 0.05, 0.5, 0.95)
@@ -113,13 +112,12 @@ def sample_record(found: Sample, thrust: float | None) -> dict[str, Any]:
     -------
     dict
     """
-    kinds = {name: int((found.kind == n).sum()) for n, name in enumerate(KINDS)}
     quantiles = {q: thrust_quantile(found, q) for q in QUANTILES}
     return {
         "samples": found.count,
         "method": found.method,
         "seed": found.seed,
-        "kind": kinds,
+        "kind": found.kinds,
         "failed": found.failed,
         "searched_to": found.searched_to,
         "truncated": found.truncated,

@@ -2,6 +2,7 @@
 
 import math
 
+from beal.design.sensitivity import Rival
 from beal.report.numbers import quantity
 from beal.report.records import relative
 from beal.stability.critical import CriticalThrust
@@ -59,6 +60,14 @@ def instability(vehicle: Vehicle, found: CriticalThrust) -> str:
     return (
         f"{text}; margin {100 * margin:+.2f} % over the nominal thrust {quantity(vehicle.thrust.nominal or 0.0, unit)}"
     )
+
+
+def close_by(rival: Rival) -> str:
+    """What else changes near a critical thrust, and how near."""
+    event = rival.event
+    modes = " and ".join(map(str, dict.fromkeys(event.modes)))
+    change = "comes" if event.change == "destabilises" else "ends"
+    return f"close by: {event.kind} of modes {modes} {change} {100 * rival.distance:.2g} % above"
 
 
 def thrust_unit(vehicle: Vehicle) -> str:

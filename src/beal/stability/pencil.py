@@ -63,6 +63,13 @@ class Pencil:
         roots = 1 / inverse - self.shift
         return np.asarray(roots[np.lexsort((roots.imag, roots.real))])
 
+    def lowest(self, thrust: float, count: int) -> ComplexArray:
+        """The lowest W in order of their real parts, shape (count,), in any coordinates, M diagonal or not."""
+        shifted = self.stiffness(thrust) + self.shift * self.M
+        inverse = np.linalg.eigvals(np.linalg.solve(shifted, self.M)).astype(complex)
+        roots = 1 / inverse[np.argsort(-inverse.real)][:count] - self.shift
+        return np.asarray(roots[np.argsort(roots.real)])
+
     def projected(self, vectors: Array) -> "Pencil":
         """The pencil in the span of ``vectors``, in coordinates that make M diagonal and K0 + shift M the identity."""
         K0, K1, M = (vectors.T @ matrix @ vectors for matrix in (self.K0, self.K1, self.M))

@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Field, FiniteFloat, PlainValidator, ValidationError, model_validator
 
@@ -15,6 +15,7 @@ from beal.vehicle.base import Part, problems, si
 from beal.vehicle.file import read_toml
 from beal.vehicle.links import Link
 from beal.vehicle.paths import unit_at
+from beal.vehicle.vehicle import Vehicle
 
 MAX_AXIS = 1_000_000
 
@@ -92,13 +93,47 @@ class LinkEntry(Part):
         return Link(self.of, self.factor, self.power)
 
 
-class StudyEntry(Part):
-    """The whole file."""
+class ModelEntry(Part):
+    """What all study files have."""
 
     model: str
+
+
+E = TypeVar("E", bound=ModelEntry)
+
+
+class StudyEntry(ModelEntry):
+    """The whole file."""
+
     grid: dict[str, AxisEntry]
     links: dict[str, LinkEntry] = Field(default_factory=dict)
     solve: SolveEntry = SolveEntry()
+
+
+def read_study(path: str | Path, kind: type[E]) -> tuple[E, Vehicle]:
+    """A study file as its tables, and the model that it names, whose path is taken relative to it.
+
+    Parameters
+    ----------
+    path : str or Path
+    kind : type of Part
+        With a ``model``.
+
+    Returns
+    -------
+    Part
+    Vehicle
+
+    Raises
+    ------
+    ModelError
+        With every problem of the file, or of the model.
+    """
+    try:
+        entry = kind.model_validate(read_toml(path))
+    except ValidationError as error:
+        raise ModelError([(f"{path}: {where}", message) for where, message in problems(error, kind)]) from None
+    return entry, load(Path(path).parent / entry.model)
 
 
 def load_study(path: str | Path) -> Study:
@@ -117,12 +152,7 @@ def load_study(path: str | Path) -> Study:
     ModelError
         With every problem of the file, or of the model that it names.
     """
-    raw = read_toml(path)
-    try:
-        entry = StudyEntry.model_validate(raw)
-    except ValidationError as error:
-        raise ModelError([(f"{path}: {where}", message) for where, message in problems(error, StudyEntry)]) from None
-    vehicle = load(Path(path).parent / entry.model)
+    entry, vehicle = read_study(path, StudyEntry)
     axes, bad = {}, []
     for name, axis in entry.grid.items():
         unit = unit_at(vehicle, name)
