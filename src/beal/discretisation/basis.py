@@ -139,8 +139,8 @@ class Basis(ABC):
         """A reading of the shapes that live on a segment at its Gauss points, shape (points, shapes)."""
         raise NotImplementedError
 
-    def expanded(self, segment: int, local: Array) -> Rows:
-        """Rows over all shapes from rows over those that live on a segment, shape (len(local), size)."""
+    def expanded(self, local: Sequence[Array]) -> Rows:
+        """Rows over all shapes from rows over those that live on each segment, below each other, shape (rows, size)."""
         raise NotImplementedError
 
     def jumps(self, segments: Sequence[int], reading: int) -> Rows:
@@ -175,6 +175,9 @@ class Combined(Basis):
 
     def rows(self, segment: int, xi: Array, reading: int) -> Array:
         return self.basis.rows(segment, xi, reading) @ self.transformation
+
+    def rows_at(self, index: NDArray[np.intp], xi: Array, reading: int) -> Rows:
+        return self.basis.rows_at(index, xi, reading) @ self.transformation
 
     def jump(self, segment: int, reading: int) -> Array:
         return self.basis.jump(segment, reading) @ self.transformation

@@ -6,6 +6,7 @@ of 1; a rigid joint, or a segment without a strain, has no coordinate for it at 
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -94,7 +95,8 @@ class LegendreBasis(Basis):
         front = carried(reading, self.segments[segment].length, xi)
         return np.hstack((front, self._local(segment, xi, reading, points=True)))
 
-    def expanded(self, segment: int, local: Array) -> Array:
-        rows = local[:, :2] @ self._front[segment]
-        rows[:, self._columns[segment]] += local[:, 2:]
-        return rows
+    def expanded(self, local: Sequence[Array]) -> Array:
+        rows = [own[:, :2] @ front for own, front in zip(local, self._front, strict=True)]
+        for row, own, columns in zip(rows, local, self._columns, strict=True):
+            row[:, columns] += own[:, 2:]
+        return np.vstack(rows)

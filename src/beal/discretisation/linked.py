@@ -141,12 +141,16 @@ class LinkedBasis(Basis):
                 blocks.append(scale * orthonormal(self._order, times, xi))
         return np.hstack(blocks)
 
-    def expanded(self, segment: int, local: Array) -> Rows:
-        index = np.array([segment])
-        own = [self._columns(family, index) for family in self._families if family.there[segment]]
-        columns = np.tile(np.hstack((2 * index[:, None] + [0, 1], *own)), (len(local), 1))
-        ends = local.shape[1] * np.arange(len(local) + 1)
-        return csr_array((local.ravel(), columns.ravel(), ends), (len(local), self.size))
+    def expanded(self, local: Sequence[Array]) -> Rows:
+        index = np.arange(len(self.segments))
+        fronts = 2 * index[:, None] + [0, 1]
+        own = [self._columns(family, index) for family in self._families]
+        there = [np.tile(family.there[:, None], self._order + 1) for family in self._families]
+        columns, lives = np.hstack((fronts, *own)), np.hstack((np.full_like(fronts, True, dtype=bool), *there))
+        each = [np.tile(columns[n, lives[n]], len(rows)) for n, rows in enumerate(local)]
+        ends = np.cumsum([0, *(rows.shape[1] for rows in local for _ in rows)])
+        data = np.concatenate([rows.ravel() for rows in local])
+        return csr_array((data, np.concatenate(each), ends), (len(ends) - 1, self.size))
 
     def _columns(self, family: _Family, index: NDArray[np.intp]) -> NDArray[np.intp]:
         """Coordinates of a strain on segments that have it, shape (len(index), order + 1)."""

@@ -5,7 +5,6 @@ from functools import partial, reduce
 from operator import add
 
 import numpy as np
-from scipy.sparse import vstack
 
 from beal.discretisation.axial import axial_force, dead_axial_force, has_dead_loads
 from beal.discretisation.basis import DEFLECTION, ROTATION, SHEAR, SLOPE, Array, Basis, Rows
@@ -130,12 +129,11 @@ def _compressed(basis: Basis, points: Points, reading: int, density: Array, righ
         local = basis.at_points(segment, reading)
         if right is None:
             principal, directions = np.linalg.eigh(local.T @ (local * weighted[a:b, None]))
-            rows.append(basis.expanded(segment, directions.T))
+            rows.append(directions.T)
         else:
             beside = basis.at_points(segment, right)
             left, principal, across = np.linalg.svd(local.T @ (beside * weighted[a:b, None]))
-            rows.append(basis.expanded(segment, left.T))
-            rights.append(basis.expanded(segment, across))
+            rows.append(left.T)
+            rights.append(across)
         weights.append(principal)
-    stack = np.vstack if isinstance(rows[0], np.ndarray) else vstack
-    return Integral(stack(rows), np.concatenate(weights), stack(rights) if rights else None)
+    return Integral(basis.expanded(rows), np.concatenate(weights), basis.expanded(rights) if rights else None)

@@ -6,14 +6,12 @@ y' (Euler-Bernoulli); with it the two strains are independent (Timoshenko), so n
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.polynomial import legendre
 
 from beal.discretisation.basis import CURVATURE, DEFLECTION, ROTATION, SHEAR, SLOPE, Array, Segment
-from beal.discretisation.polynomials import integrals
+from beal.discretisation.polynomials import integrated
 from beal.vehicle.stations import mean
 from beal.vehicle.vehicle import Vehicle
 
@@ -75,16 +73,9 @@ class UniformShapes:
     def at(self, xi: Array, times: int) -> Array:
         """Strains integrated ``times`` times, at xi in [-1, 1] of the segment, shape (len(xi), order + 1)."""
         unit_energy = (self.length * self.stiffness) ** -0.5 * (self.length / 2) ** times
-        return np.asarray(_orthonormal(self.order, times, tuple(xi)) * unit_energy)
-
-
-@lru_cache(maxsize=256)
-def _orthonormal(order: int, times: int, xi: tuple[float, ...]) -> Array:
-    """The same few points come again for every segment."""
-    return orthonormal(order, times, np.array(xi))
+        return np.asarray(orthonormal(self.order, times, xi) * unit_energy)
 
 
 def orthonormal(order: int, times: int, xi: Array) -> Array:
     """sqrt(2 k + 1) P_k, k = 0..order, integrated from -1 ``times`` times, shape (len(xi), order + 1)."""
-    degree = np.arange(order + 1)
-    return legendre.legvander(xi, order + 2) @ integrals(order, times) * np.sqrt(2 * degree + 1)
+    return integrated(order, times, xi) * np.sqrt(2 * np.arange(order + 1) + 1)

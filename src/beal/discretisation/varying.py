@@ -7,13 +7,12 @@ energy; of uniform stiffness they are the Legendre polynomials of the strain.
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from beal.discretisation.basis import Array, Segment
-from beal.discretisation.polynomials import gauss, integrals
+from beal.discretisation.polynomials import gauss, integrated
 from beal.discretisation.strains import STRAINS, Strain
 from beal.vehicle.parts import Stage
 from beal.vehicle.stations import StationTable
@@ -21,7 +20,6 @@ from beal.vehicle.vehicle import Vehicle
 
 RATIO = 2.0  # of the stiffness at the ends of a piece, at most
 DIGITS = 14.0 * math.log(10.0)
-FEW_POINTS = 48  # come again for every piece, as Gauss points and ends do
 SMOOTH = 5  # Gauss points that a piece takes beyond the half waves that a polynomial may have on it
 
 
@@ -122,11 +120,11 @@ class LoadShapes:
         strain = np.linalg.solve(np.linalg.cholesky(gram), strain.T).T.reshape(-1, points, order + 1)
         # On each piece, the polynomial through the Gauss points.
         degree = np.arange(points)
-        to_series = (_integrated(points - 1, 0, pieces.t) * pieces.weight[:, None]).T * (degree[:, None] + 0.5)
+        to_series = (integrated(points - 1, 0, pieces.t) * pieces.weight[:, None]).T * (degree[:, None] + 0.5)
         self._series = to_series @ strain
         half = pieces.widths[:, None] / 2
         once = np.vstack((np.zeros(order + 1), np.cumsum(half * 2 * self._series[:, 0], axis=0)))
-        end = _integrated(points - 1, 2, np.ones(1))
+        end = integrated(points - 1, 2, np.ones(1))
         rise = 2 * half * once[:-1] + half**2 * (end @ self._series)[:, 0]
         self._once = once[:-1]  # the integrals at the fronts of the pieces
         self._twice = np.vstack((np.zeros(order + 1), np.cumsum(rise, axis=0)))[:-1]
@@ -135,7 +133,7 @@ class LoadShapes:
         """The same as ``at`` the Gauss points of the pieces."""
         pieces = self._pieces
         half = pieces.widths[:, None, None] / 2
-        found = (_integrated(len(pieces.t) - 1, times, pieces.t) @ self._series) * half**times
+        found = (integrated(len(pieces.t) - 1, times, pieces.t) @ self._series) * half**times
         if times == 1:
             found += self._once[:, None]
         elif times == 2:
@@ -149,7 +147,7 @@ class LoadShapes:
         piece = np.clip(np.searchsorted(pieces.edges, x, side="right") - 1, 0, len(pieces.widths) - 1)
         half = pieces.widths[piece] / 2
         t = (x - pieces.edges[piece]) / half - 1
-        polynomials = _integrated(len(pieces.t) - 1, times, t)
+        polynomials = integrated(len(pieces.t) - 1, times, t)
         found = np.einsum("kg,kgn->kn", polynomials, self._series[piece]) * half[:, None] ** times
         if times == 1:
             found += self._once[piece]
@@ -178,17 +176,3 @@ def load_shapes(
         if stiffness is not None:
             found[index] = LoadShapes(parts, stiffness, segment.start - vehicle.boundaries[segment.stage], order)
     return found
-
-
-def _integrated(degree: int, times: int, t: Array) -> Array:
-    """P_0..P_degree integrated from -1 ``times`` times, shape (len(t), degree + 1)."""
-    return _few_integrated(degree, times, tuple(t)) if len(t) <= FEW_POINTS else _legendre(degree, times, t)
-
-
-@lru_cache(maxsize=256)
-def _few_integrated(degree: int, times: int, t: tuple[float, ...]) -> Array:
-    return _legendre(degree, times, np.array(t))
-
-
-def _legendre(degree: int, times: int, t: Array) -> Array:
-    return legendre.legvander(t, degree + 2) @ integrals(degree, times)

@@ -67,7 +67,9 @@ class Reduction:
         converged = formulation == "converged"
         self._vehicle = inertial(vehicle) if converged else vehicle
         self._vanishing = vanishing
-        self._order = _first_order(vehicle)
+        each = waves(vehicle)
+        self._order = _first_order(each)
+        self._top = _highest_root(vehicle, each)
         self.system = linked(self._vehicle, self._order)
         motions = self.system.motions
         self._motions, self._rigid = motions.shape[1], self.system.rigid
@@ -165,7 +167,6 @@ class Reduction:
     def _lowest_modes(self, block: int, least: int, most: int) -> Array:
         """Elastic modes of the unloaded vehicle: the watched ones and a few above."""
         system = self.system
-        top = _highest_root(self._vehicle)
         loads = np.random.default_rng(0).normal(size=(system.M.shape[0], block))
         before = np.zeros(0)
         while True:
@@ -175,7 +176,7 @@ class Reduction:
             elastic = self._vectors[:, self._rigid :]
             inertia, rotation = scipy.linalg.eigh(elastic.T @ (system.M @ elastic))
             inertia, rotation = inertia[::-1], rotation[:, ::-1]
-            below = int(np.sum(inertia > 1 / (top + system.shift)))
+            below = int(np.sum(inertia > 1 / (self._top + system.shift)))
             self.watched = min(max(below, least), most, len(inertia))
             first = inertia[: self.watched]
             settled = len(before) >= len(first) and np.all(np.abs(before[: len(first)] - first) < SETTLED * first)
@@ -184,16 +185,15 @@ class Reduction:
             before = inertia
 
 
-def _first_order(vehicle: Vehicle) -> int:
+def _first_order(each: Array) -> int:
     """Lowest order to begin with: the longest segment, measured in waves, decides."""
-    each = waves(vehicle)
     return 2 + 2 * math.ceil(3 * float(each.max() / each.sum()) - 1e-9)
 
 
-def _highest_root(vehicle: Vehicle) -> float:
+def _highest_root(vehicle: Vehicle, each: Array) -> float:
     """W below which the rigidly jointed vehicle would have ``WATCHED`` modes (WKB)."""
     smeared = vehicle.mass / sum(stage.mass for stage in vehicle.laden)  # the point masses
-    return ((WATCHED + 0.5) * math.pi / float(waves(vehicle).sum())) ** 4 / smeared
+    return ((WATCHED + 0.5) * math.pi / float(each.sum())) ** 4 / smeared
 
 
 def _extended(system: LinkedOperators, vectors: Array, added: Array, floor: float = 0.0) -> Array:
