@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import beal
@@ -17,6 +18,7 @@ from beal.vehicle import catalog
 from beal.web.examples import example_text
 
 playwright = pytest.importorskip("playwright.sync_api")
+axe = pytest.importorskip("axe_playwright_python.sync_playwright")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FLAGS = "--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking"
 FLAGS += " --disable-component-update --disable-sync"
@@ -209,6 +211,31 @@ def test_everything_is_reached_and_named_without_a_pointer(page):
     says(page, "Diverges at")
 
 
+@pytest.mark.parametrize("size", [(1280, 720), (820, 1180)], ids=str)
+def test_axe_finds_no_barrier(page, size):
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    until(page, "document.getElementById('map').data?.length === 3")
+    page.select_option("#further-kind", "pulsation")
+    until(page, "document.getElementById('further').data?.length > 0")
+    for _ in ("light", "dark"):
+        assert barriers(page) == []
+        page.click("#theme")
+    put(page, KR, "-3")
+    playwright.expect(page.locator(f".field:has({KR}) .error")).not_to_have_text("")
+    assert barriers(page) == []
+    for opens, dialog in (("#edit", "#text-dialog"), ("#code", "#code-dialog")):
+        put(page, KR, "5000")
+        page.click(opens)
+        playwright.expect(page.locator(dialog)).to_be_visible()
+        assert barriers(page) == []
+        page.keyboard.press("Escape")
+
+
+def barriers(page):
+    found = axe.Axe().run(page).response["violations"]
+    return [(barrier["id"], [node["html"] for node in barrier["nodes"]]) for barrier in found]
+
+
 def test_the_motion_moves_and_flutters_at_the_instability(page):
     path = page.locator("#drawing .body").first
     before = path.get_attribute("d")
@@ -235,13 +262,49 @@ def test_a_click_on_the_map_sets_the_vehicle(page):
 def test_further_charts_are_offered_where_the_vehicle_has_what_they_need(page):
     until(page, "document.querySelector('#further-kind [value=flight]').disabled")
     page.select_option("#further-kind", "pulsation")
-    until(page, "document.getElementById('further').data?.[0]?.z.length === 21")
+    until(page, "document.getElementById('further').getAttribute('aria-label').includes('resonances 2 w1')")
     page.click("#further-stop")
     law = "[control]\nlag = 0.02\ngains = [{sensor = 'imu', quantity = 'slope', gain = 0.5}]\n"
     drop(page, "controlled.toml", (beal.dumps(beal.loads(example_text("tsto"))) + law).encode())
     until(page, "!document.querySelector('#further-kind [value=loop]').disabled")
     page.select_option("#further-kind", "loop")
     until(page, "document.getElementById('further').getAttribute('aria-label').startsWith('Open loop, closed loop')")
+
+
+@pytest.mark.parametrize(
+    ("example", "length", "thrust", "drafted"),
+    [("tsto", "0.6", "106.437231", False), ("generic_small_launcher", "1.6", "68.9667258", True)],
+)
+def test_a_curve_is_that_of_the_command(page, tmp_path, example, length, thrust, drafted):
+    page.select_option("#example", example)
+    says(page, thrust)
+    playwright.expect(page.locator("#q-stage-0-length")).to_have_value(length)
+    slider = page.locator(".field:has(#q-stage-0-length) input[type=range]")
+    moved = "(slider) => { slider.value = 550; slider.dispatchEvent(new Event('input', { bubbles: true })); }"
+    page.evaluate("seen = []; document.getElementById('curve').on('plotly_afterplot', () => "
+                  "seen.push(document.getElementById('verdict').className))")  # fmt: skip
+    slider.evaluate(moved)
+    playwright.expect(page.locator("#verdict .words")).not_to_contain_text(thrust)
+    assert ("waiting" in page.evaluate("seen[0]")) == drafted  # of a launcher a draft comes first
+    with page.expect_download() as download:
+        page.click("#save")
+    vehicle = beal.load(saved(download, tmp_path / "vehicle.toml"))
+    with page.expect_download() as download:
+        page.locator("[data-chart=curve]").select_option("CSV")
+    names, *rows = saved(download, tmp_path / "curve.csv").read_text().split()
+    shown = dict(zip(names.split(","), np.array([row.split(",") for row in rows], dtype=float).T, strict=True))
+    found = beal.thrust_curve(vehicle, shown["thrust"][-1], len(rows), 4)
+    drawn = np.array([shown[f"angular_frequency_{mode + 1}"] for mode in range(4)]).T
+    assert drawn == pytest.approx(found.angular_frequency, rel=1e-5)
+
+
+def test_a_flight_is_drawn_with_what_the_vehicle_bears(page):
+    page.select_option("#example", "generic_small_launcher")
+    until(page, "!document.querySelector('#further-kind [value=flight]').disabled")
+    page.select_option("#further-kind", "flight")
+    playwright.expect(page.locator("#further-note")).to_contain_text("margin at least")
+    until(page, "document.getElementById('further').data?.map(({ name }) => name).includes('thrust')")
+    page.click("#further-stop")
 
 
 def test_files_are_opened_by_drop(page):

@@ -93,12 +93,12 @@ def test_one_move_of_a_slider_gives_verdict_curves_and_shapes():
     assert first / first[0] == pytest.approx(exact / exact[0], abs=1e-6)
 
 
-@pytest.mark.parametrize(("name", "tolerance"), [("tsto", 1e-6), ("generic_small_launcher", 2e-3)])
+@pytest.mark.parametrize(("name", "tolerance"), [("tsto", 1e-6), ("generic_small_launcher", 1e-4)])
 def test_a_draft_is_near_the_answer(name, tolerance):
     text = example_text(name)
     answer = ask("solve", model=text)
     rough = ask("draft", model=text, to=answer["curve"]["thrust"][-1])
-    there = [row[:3] for row in answer["curve"]["angular_frequency"][::2]]
+    there = [row[:3] for row in answer["curve"]["angular_frequency"][::3]]
     highest = max(map(max, there))
     assert [row[:3] for row in rough["curve"]["angular_frequency"]] == pytest.approx(
         np.array(there), abs=tolerance * highest

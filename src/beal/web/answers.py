@@ -14,7 +14,7 @@ from beal.report.records import critical_record, curve_record, event_record, mod
 from beal.report.verdict import convention, searched, shown_to, verdict
 from beal.stability.critical import critical_events, critical_thrust
 from beal.stability.curve import thrust_curve
-from beal.stability.large import is_large
+from beal.stability.large import Reduction, is_large
 from beal.stability.limit import default_limit
 from beal.stability.modes import converged_modes
 from beal.stability.spectrum import Spectrum, spectrum
@@ -30,7 +30,7 @@ from beal.web.code import command_lines, python_lines
 from beal.web.vehicles import base_of, controls, described, opened, vehicle_of
 
 COARSE = 6  # degree on each of many segments: frequencies are good to some 1e-7
-ROUGH, FEW = 3, 31  # of a draft: degree on each of many segments, good to some 1e-3, and points of its curves
+FEW = 21  # points of the curves of a draft
 DRAWN = 24  # points of a mode shape in each stage
 Answer = dict[str, Any]
 
@@ -76,19 +76,19 @@ def modes(question: ask.Modes) -> Answer:
 
 
 def draft(question: ask.Solve) -> Answer:
-    """Curves and mode shapes as ``solve`` gives them, roughly and soon; of large vehicles good to some 0.1 %."""
+    """Curves and mode shapes as ``solve`` gives them, roughly and soon; of large vehicles good to some 0.01 %."""
     vehicle = vehicle_of(question)
-    to = question.to or default_limit(vehicle)
-    return _seen(question, vehicle, ROUGH, to, min(question.points, FEW))
+    operators = Reduction(vehicle, question.formulation).operators if _coarse(question, vehicle) else None
+    return _seen(question, vehicle, operators, question.to or default_limit(vehicle), min(question.points, FEW))
 
 
 def solve(question: ask.Solve) -> Answer:
     """What a move of a slider changes: the vehicle, its verdict, its curves, and mode shapes at a thrust."""
     vehicle = vehicle_of(question)
     found = critical_thrust(vehicle, None, question.formulation)
-    to = question.to or shown_to(found)
+    operators = discretise(vehicle, question.formulation, order=COARSE) if _coarse(question, vehicle) else None
     return {
-        **_seen(question, vehicle, COARSE, to, question.points),
+        **_seen(question, vehicle, operators, question.to or shown_to(found), question.points),
         "critical": critical_record(vehicle, found),
         "verdict": verdict(vehicle, found),
         "searched": searched(vehicle, found),
@@ -96,10 +96,14 @@ def solve(question: ask.Solve) -> Answer:
     }
 
 
-def _seen(question: ask.Solve, vehicle: Vehicle, order: int, to: float, points: int) -> Answer:
-    """The vehicle, its curves and its shapes; ``order`` is that of vehicles of many segments."""
-    coarse = is_large(vehicle) and question.formulation not in RITZ
-    operators = discretise(vehicle, question.formulation, order=order if coarse else None)
+def _coarse(question: ask.Solve, vehicle: Vehicle) -> bool:
+    """Whether the usual operators would take too long."""
+    return is_large(vehicle) and question.formulation not in RITZ
+
+
+def _seen(question: ask.Solve, vehicle: Vehicle, operators: Operators | None, to: float, points: int) -> Answer:
+    """The vehicle, its curves and its shapes, from the usual operators unless others are given."""
+    operators = operators or discretise(vehicle, question.formulation)
     count = min(question.modes, len(operators.M) - operators.rigid)
     curve = thrust_curve(operators, to, points, count, question.formulation)
     nominal = vehicle.thrust.nominal or 0.0

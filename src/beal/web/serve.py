@@ -40,7 +40,7 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
     ModelError
         If the port is taken.
     """
-    with socket.socket() as listening:
+    with socket.socket(proto=socket.IPPROTO_TCP) as listening:  # else asyncio does not send small answers at once
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind((HOST, port))

@@ -13,12 +13,19 @@ export const colours = () => (document.documentElement.dataset.theme === "dark" 
 export const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 export function axis(title, more = {}) {
-  return { title: { text: title, standoff: 6 }, gridcolor: ink("line"), zerolinecolor: ink("line"), linecolor: ink("soft"), ticks: "outside", tickcolor: ink("soft"), ticklen: 3, nticks: 5, tickangle: 0, exponentformat: "power", ...more };
+  return { title: { text: title, standoff: 6, font: { size: 12 } }, gridcolor: ink("line"), zerolinecolor: ink("line"), linecolor: ink("soft"), ticks: "outside", tickcolor: ink("soft"), ticklen: 3, nticks: 5, tickangle: 0, exponentformat: "power", ...(more.type === "log" ? { tickfont: { size: 9 } } : {}), ...more };
+}
+
+// A long title in two lines, for an axis that stands.
+export function folded(title) {
+  const words = title.split(" ");
+  const half = words.findIndex((_, n) => words.slice(0, n + 1).join(" ").length >= title.length / 2);
+  return title.length < 16 || half < 0 ? title : `${words.slice(0, half).join(" ")}<br>${words.slice(half).join(" ")}`;
 }
 
 export function layout(x, y, more = {}) {
   return {
-    margin: { l: 56, r: 12, t: 8, b: 36 }, font: { family: "system-ui, DejaVu Sans, sans-serif", size: 11, color: ink("ink") },
+    margin: { l: 56, r: 12, t: 8, b: 40 }, font: { family: "system-ui, DejaVu Sans, sans-serif", size: 11, color: ink("ink") },
     paper_bgcolor: ink("paper"), plot_bgcolor: ink("paper"), xaxis: x, yaxis: y, showlegend: false, hovermode: "closest",
     hoverlabel: { bgcolor: ink("tint"), bordercolor: ink("line"), font: { color: ink("ink") } }, ...more,
   };
@@ -145,7 +152,7 @@ export function curve({ curve: found, critical, vehicle }, thrust) {
   return draw("curve", traces, layout(axis(title, { range: [0, last / factor] }), y, { shapes, annotations }), columns, words);
 }
 
-function upright(x, dash, color) {
+export function upright(x, dash, color) {
   return { type: "line", x0: x, x1: x, y0: 0, y1: 1, yref: "paper", line: { width: 1.5, dash, color } };
 }
 
@@ -197,5 +204,5 @@ export function motion(found, sensor) {
     layout(axis(si ? "time (s)" : "time t"), y), columns, `Deflection at ${sensor} over time.`);
   const ends = { type: "scatter", mode: "markers", x: [read.displacement[0]], y: [read.rate[0]], marker: { color: ink("ink"), size: 6, symbol: "circle-open" }, hovertemplate: "start<extra></extra>" };
   return draw("phase", [{ type: "scatter", mode: "lines", x: read.displacement, y: read.rate, line, hoverinfo: "skip" }, ends],
-    layout(axis(si ? "deflection (m)" : "deflection y"), axis(si ? "rate (m/s)" : "rate dy/dt")), columns, `Rate over deflection at ${sensor}.`);
+    layout(axis(si ? "deflection (m)" : "deflection y", { tickfont: { size: 9 } }), axis(si ? "rate (m/s)" : "rate dy/dt")), columns, `Rate over deflection at ${sensor}.`);
 }

@@ -78,7 +78,7 @@ class Quantity {
   constructor(quantity, state) {
     Object.assign(this, quantity);
     const id = `q-${this.path.replace(/\W+/g, "-")}`;
-    const unit = this.unit ? ` [${this.unit.replaceAll("*", " ")}]` : "";
+    const unit = this.unit ? ` [${this.unit.replaceAll("*", "\u00a0")}]` : "";
     this.row = element("div", { class: "field" });
     this.number = element("input", { class: "number", id, autocomplete: "off", "aria-describedby": `${id}-error` });
     this.slider = element("input", { type: "range", min: 0, max: STEPS, "aria-label": `${this.path}, slider`, tabindex: 0 });

@@ -3,9 +3,9 @@
 import { short } from "./numbers.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const HIGH = 170, MIDDLE = 84, SIDE = 70; // of the drawing, which is as wide as its place
+const HIGH = 180, MIDDLE = 92, SIDE = 70; // of the drawing, which is as wide as its place
 const HALF = 17; // half the width of the stiffest section
-const BEND = 46; // largest deflection
+const BEND = 40; // largest deflection
 const PERIOD = 1.7; // s on the screen
 const PERIODS = 4; // after which a motion that grows begins anew
 const GROWTH = 1.5; // the largest that is drawn until then, as a power of e: stronger growth would hide how it begins
@@ -58,8 +58,8 @@ export class Drawing {
     const heaviest = vehicle.mass;
     this.tanks = vehicle.tanks.map((tank) => ({ tank, path: this.#add("path", { class: "tank" }, `tank ${tank.name}`) }));
     for (const mass of vehicle.point_masses) this.#rider(mass.station, "circle", { class: "mass", r: 4 + 26 * Math.sqrt(mass.mass / heaviest) }, `mass ${mass.name} ${short(mass.mass)}`);
-    for (const sensor of vehicle.sensors) this.#rider(sensor.station, "path", { class: "sensor", d: `M0 ${HALF + 3}l7 12h-14z` }, sensor.name, true, HALF + 28);
-    for (const force of vehicle.forces) this.#rider(force.station, "path", { class: "force", d: `M0 ${-HALF - 30}v20m-4 -7l4 8l4 -8z` }, force.name || `F(t), ${force.kind}`, true, -HALF - 34);
+    for (const sensor of vehicle.sensors) this.#rider(sensor.station, "path", { class: "sensor", d: `M0 ${HALF + 3}l7 12h-14z` }, sensor.name, { y: HALF + 28, "text-anchor": "middle" });
+    for (const force of vehicle.forces) this.#rider(force.station, "path", { class: "force", d: `M0 ${-HALF - 30}v20m-4 -7l4 8l4 -8z` }, force.name || `F(t), ${force.kind}`, beside(force.station < vehicle.length / 2));
     this.thrust = this.#add("path", { class: "thrust", d: "M6 0h58M4 0l15 -7v14z" }, "thrust");
     this.joints = vehicle.joints.map((joint, number) => this.#joint(joint, number));
     this.#support(vehicle.support.nose, 0, -1);
@@ -79,12 +79,12 @@ export class Drawing {
     return made;
   }
 
-  #rider(station, tag, attributes, name, named = false, y = 0) {
+  #rider(station, tag, attributes, name, place = null) {
     const shape = this.#add(tag, attributes, `${name} at ${short(station)}`);
     const holder = this.#add("g", {});
     holder.append(shape);
-    if (named) {
-      const text = this.#add("text", { x: 0, y, "text-anchor": "middle", "aria-hidden": "true" });
+    if (place) {
+      const text = this.#add("text", { ...place, "aria-hidden": "true" });
       text.textContent = name;
       holder.append(text);
     }
@@ -194,6 +194,11 @@ export class Drawing {
       joint.setAttribute("cy", (a[1] + b[1]) / 2);
     });
   }
+}
+
+// The place of a force's name: beside its arrow, towards the middle of the vehicle.
+function beside(right) {
+  return { x: right ? 9 : -9, y: -HALF - 18, "text-anchor": right ? "start" : "end" };
 }
 
 // Half widths go with EI^(1/4), as the radii of similar sections of one material do.

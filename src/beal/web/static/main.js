@@ -22,7 +22,8 @@ const map = new StabilityMap(byId("map-progress"), byId("map-stop"), (axes, valu
 const further = new Further(byId("further-progress"), byId("further-stop"));
 let model = null; // the last answers
 let solved = null;
-let resting = null; // timers: for the list of quantities, and for the slower charts
+let finishing = null; // timers: for the verdict after a draft, the list of quantities, and the slower charts
+let resting = null;
 let waiting = null;
 
 const question = () => {
@@ -58,7 +59,8 @@ const drafts = new Latest("draft", (answer, asked) => {
   problems([]);
   byId("verdict").classList.add("waiting");
   curvesShown();
-  if (isNow(asked)) solutions.ask({ ...question(), thrust: state.now.thrust });
+  clearTimeout(finishing);
+  if (isNow(asked)) finishing = setTimeout(() => solutions.ask({ ...question(), thrust: state.now.thrust }), REST);
 }, refused);
 
 function curvesShown() {
@@ -80,7 +82,7 @@ const motions = new Latest("response", (answer) => {
   charts.empty("phase", "no response");
 });
 
-const loci = new Latest("locus", (answer) => charts.gainLocus(answer, model.vehicle.units), (error) => charts.empty("locus", error.message));
+const loci = new Latest("locus", (answer) => charts.gainLocus(answer, solved.vehicle.units), (error) => charts.empty("locus", error.message));
 
 function changed(part) {
   const { now } = state;
@@ -94,6 +96,7 @@ function changed(part) {
   if ("further" in part || "sensor" in part || "start" in part || "duration" in part || "mode" in part && !("thrust" in part) && !("values" in part)) slower();
   if ("axes" in part && model) axesOffered();
   const vehicle = ["model", "values", "choices", "formulation", "thrust"].some((name) => name in part);
+  if ("model" in part) model = null; // what belongs to the vehicle before
   if (vehicle) {
     const asked = { ...question(), thrust: now.thrust };
     if (solved && !("model" in part) && solutions.took > SLOW) drafts.ask({ ...asked, to: solved.curve.thrust.at(-1) });
@@ -166,10 +169,12 @@ function locus() {
 function slower() {
   clearTimeout(waiting);
   waiting = setTimeout(() => {
-    if (!model || !solved) return slower();
+    if (!model) return; // its answer comes back to here
+    if (!solved) return slower();
     if (model.vehicle.sensors.length) {
       motions.ask({ ...question(), formulation: "objective", duration: duration(), thrust: thrustNow(), mode: state.now.start, amplitude: 0.01 * (model.vehicle.units === "SI" ? model.vehicle.length : 1) });
     } else {
+      byId("growth").textContent = "";
       byId("response-error").textContent = "A response is read at sensors, and the vehicle has none. Add one under Edit text.";
       charts.empty("response", "no sensor");
       charts.empty("phase", "no sensor");
@@ -199,7 +204,7 @@ function furtherShown() {
 
 function duration() {
   const given = state.now.duration;
-  const period = model.vehicle.nondimensional.time_scale;
+  const period = solved.vehicle.nondimensional.time_scale;
   const value = given ?? Number((1.5 * period).toPrecision(2));
   if (document.activeElement !== byId("duration")) byId("duration").value = short(value);
   return value;
@@ -235,6 +240,7 @@ function sensorsOffered() {
     list.dataset.names = names.join();
     list.replaceChildren(...names.map((name) => element("option", {}, name)));
   }
+  for (const label of document.querySelectorAll("#response-panel .bar label")) label.hidden = !names.length;
   if (names.includes(state.now.sensor)) list.value = state.now.sensor;
 }
 
@@ -340,7 +346,12 @@ function wire() {
   on("play", "click", ({ target }) => { drawing.play(!drawing.running); target.textContent = drawing.running ? "Pause" : "Play"; target.setAttribute("aria-pressed", String(drawing.running)); });
   on("over", "change", ({ target }) => { state.set({ over: target.value }); state.keep(); });
   for (const id of ["map-x", "map-y"]) on(id, "change", () => { state.set({ axes: [byId("map-x").value, byId("map-y").value] }); state.keep(); slower(); });
-  on("further-kind", "change", ({ target }) => { state.set({ further: target.value }); state.keep(); });
+  on("further-kind", "change", ({ target }) => {
+    state.set({ further: target.value });
+    state.keep();
+    byId("further").hidden = !target.value;
+    byId("further-panel").scrollIntoView({ block: "nearest" });
+  });
   on("sensor", "change", ({ target }) => { state.set({ sensor: target.value }); state.keep(); });
   on("start", "change", ({ target }) => { state.set({ start: Number(target.value) }); state.keep(); });
   on("duration", "change", ({ target }) => { const value = parsed(target.value); if (value > 0) { state.set({ duration: value }); state.keep(); } else duration(); });

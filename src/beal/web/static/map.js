@@ -1,7 +1,7 @@
 // The stability map over two quantities: from a coarse grid to a fine one, in questions of a bounded time.
 
 import { Refused, ask } from "./api.js";
-import { axis, draw, empty, ink, layout, thrustAxis } from "./charts.js";
+import { axis, draw, empty, folded, ink, layout, thrustAxis } from "./charts.js";
 import { named } from "./numbers.js";
 
 const LEVELS = [5, 9, 17, 33, 65]; // points along each axis
@@ -86,7 +86,7 @@ export class StabilityMap {
       type: "heatmap", x, y, z, text, colorscale: "Cividis", hovertemplate: "%{text}<br>P %{z:.5g}<br>%{x:.4g}, %{y:.4g}<extra></extra>",
       colorbar: { title: { text: title, side: "right" }, thickness: 10, outlinewidth: 0, tickfont: { size: 10 } }, hoverongaps: true,
     };
-    const frame = layout(mapAxis(X), mapAxis(Y), { annotations: regions(index, cell, x, y, this.axes, this.now ?? []), margin: { l: 56, r: 4, t: 8, b: 36 } });
+    const frame = layout(mapAxis(X), mapAxis(Y, folded), { annotations: regions(index, cell, x, y, this.axes, this.now ?? [], this.place), margin: { l: 64, r: 4, t: 8, b: 40 } });
     const columns = { [X.path]: [], [Y.path]: [], critical_thrust: [], kind: [], mode_low: [], mode_high: [], status: [] };
     index.forEach((_, m) => index.forEach((_, n) => {
       const { P, kind, modes, status } = cell(n, m);
@@ -102,7 +102,7 @@ export class StabilityMap {
   // Where the vehicle is now.
   #here() {
     const [x, y] = this.now ?? [null, null];
-    return { type: "scatter", mode: "markers", x: [x], y: [y], marker: { symbol: "circle", size: 11, color: ink("paper"), line: { color: ink("ink"), width: 2.5 } }, hovertemplate: "the vehicle<extra></extra>" };
+    return { type: "scatter", mode: "markers", x: [x], y: [y], cliponaxis: false, marker: { symbol: "circle", size: 11, color: ink("paper"), line: { color: ink("ink"), width: 2.5 } }, hovertemplate: "the vehicle<extra></extra>" };
   }
 
   mark(now) {
@@ -123,9 +123,9 @@ function missing(level, found) {
   return places;
 }
 
-function mapAxis({ path, scale, from, to, unit }) {
+function mapAxis({ path, scale, from, to, unit }, shaped = (title) => title) {
   const range = scale === "log" ? [Math.log10(from), Math.log10(to)] : [from, to];
-  return axis(`${named(path)}${unit ? ` (${unit.replaceAll("*", " ")})` : ""}`, { type: scale, range, dtick: scale === "log" ? 1 : undefined, showgrid: false });
+  return axis(shaped(`${named(path)}${unit ? ` (${unit.replaceAll("*", " ")})` : ""}`), { type: scale, range, dtick: scale === "log" ? 1 : undefined, showgrid: false });
 }
 
 const told = ({ kind, modes, status }) => (status !== "solved" ? status.replaceAll("_", " ") : kind === "stable" ? "stable" : modes[0] === modes[1] ? `${kind}, mode ${modes[0]}` : `${kind}, modes ${modes[0]} and ${modes[1]}`);
@@ -145,7 +145,7 @@ function borders(index, cell, x, y, [X, Y]) {
 }
 
 // The name of each kind of instability, at the point of its region that is farthest from its border.
-function regions(index, cell, x, y, axes, now) {
+function regions(index, cell, x, y, axes, now, { clientWidth, clientHeight }) {
   const last = index.length - 1;
   const best = new Map();
   for (let m = 0; m <= last; m += 1) for (let n = 0; n <= last; n += 1) {
@@ -158,7 +158,10 @@ function regions(index, cell, x, y, axes, now) {
   const place = (values, n, { scale }) => (scale === "log" ? Math.log10(values[n]) : values[n]);
   const share = (value, { from, to, scale }) => (scale === "log" ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from));
   const hides = (n, m) => Math.abs(share(x[n], axes[0]) - share(now[0], axes[0])) < 0.25 && Math.abs(share(y[m], axes[1]) - share(now[1], axes[1])) < 0.1;
-  return [...best].filter(([, { reach }]) => reach >= 0.06 * last).map(([text, { n, m }]) => ({
+  const near = (a, b) => Math.abs(a.n - b.n) * clientWidth < 140 * last && Math.abs(a.m - b.m) * (clientHeight - 48) < 19 * last;
+  const [, names] = [...best].filter(([, { reach }]) => reach >= 0.06 * last).sort((a, b) => b[1].reach - a[1].reach)
+    .reduce(([taken, kept], [text, at]) => (taken.some((other) => near(at, other)) ? [taken, kept] : [[...taken, at], [...kept, [text, at]]]), [[], []]);
+  return names.map(([text, { n, m }]) => ({
     x: place(x, n, axes[0]), y: place(y, m, axes[1]), text, yshift: hides(n, m) ? -24 : 0, showarrow: false, font: { color: "#ffffff", size: 11 }, bgcolor: "rgba(0,0,0,.55)", borderpad: 2,
   }));
 }
