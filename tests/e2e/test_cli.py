@@ -376,14 +376,29 @@ def test_map_says_how_many_points_were_solved_one_by_one(beal_here, written, tst
     )
 
 
-def test_map_does_without_slow_imports(beal_here, written, tsto, tmp_path):
+@pytest.mark.parametrize(
+    ("command", "needed", "slow"),
+    [
+        ("map study.toml -o map.zarr", "beal.study.map", {"scipy.signal"}),
+        ("critical model.toml", "beal.stability.critical", {"scipy.signal", "scipy.stats", "zarr", "beal.motion"}),
+        ("response model.toml --duration 1", "beal.motion.solve", {"scipy.signal", "scipy.stats", "zarr"}),
+    ],
+)
+def test_commands_do_without_slow_imports(written, tsto, tmp_path, command, needed, slow):
     written(f'model = "{tsto}"\n[grid]\n"stage.split" = {{values = [0.2]}}\n', "study.toml")
     script = "import sys; from beal.cli import main; sys.argv[0] = 'beal'; main()"
     script = f"import atexit, sys; atexit.register(lambda: print(*sorted(sys.modules), sep='\\n')); {script}"
-    arguments = [sys.executable, "-c", script, "map", "study.toml", "-o", "map.zarr"]
+    arguments = [sys.executable, "-c", script, *command.replace("model.toml", tsto).split()]
     printed = subprocess.run(arguments, cwd=tmp_path, capture_output=True, text=True).stdout.splitlines()
-    assert "beal.study.map" in printed
-    assert {"xarray", "pandas", "distributed", "matplotlib"} & set(printed) == set()
+    assert needed in printed
+    assert {"xarray", "pandas", "distributed", "matplotlib", *slow} & set(printed) == set()
+
+
+def test_the_server_of_the_explorer_leaves_computing_to_its_processes():
+    code = "import sys; import beal.web.serve; print(*sorted(sys.modules))"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert "uvicorn" in loaded
+    assert {"numpy", "beal.vehicle", "beal.web.worker"} & set(loaded) == set()
 
 
 @pytest.mark.parametrize("name", ["beck", "beal", "pflueger", "tsto"])

@@ -15,7 +15,7 @@ from beal.errors import ModelError
 from beal.study.lattice import Lattice
 from beal.study.refine import refine
 from beal.study.refined import SIDES, RefinedMap
-from beal.study.store import VARIABLES, empty
+from beal.study.variables import VARIABLES, empty
 
 WIDTH = 0.01
 

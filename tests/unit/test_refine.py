@@ -12,7 +12,7 @@ from beal.study.lattice import ONE, Lattice
 from beal.study.refine import refine
 from beal.study.refined import refined_map
 from beal.study.solve import solve_points
-from beal.study.store import VARIABLES, empty
+from beal.study.variables import VARIABLES, empty
 
 ROTATIONAL, SHEAR = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
 VEHICLE = beal.catalog.tsto(0.6, 5000.0, 5000.0)

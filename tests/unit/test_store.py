@@ -13,8 +13,8 @@ import zarr
 import beal
 from beal.study import blocks, store
 from beal.study.map import run_study
-from beal.study.store import VARIABLES
 from beal.study.study import Solve, Study
+from beal.study.variables import VARIABLES
 
 ROTATIONAL, SHEAR = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
 VEHICLE = beal.catalog.tsto(0.6, 5000.0, 5000.0)

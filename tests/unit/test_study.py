@@ -10,8 +10,8 @@ import pytest
 import beal
 from beal.study.file import load_study
 from beal.study.map import study_map
-from beal.study.store import METHODS
 from beal.study.study import Solve, Study, spaced
+from beal.study.variables import METHODS
 
 ROTATIONAL, SHEAR = "joint[0].rotational_stiffness", "joint[0].shear_stiffness"
 VEHICLE = beal.catalog.tsto(0.6, 5000.0, 5000.0)

@@ -42,7 +42,6 @@ def critical(
 ) -> None:
     """The smallest thrust at which the vehicle flutters or diverges."""
     from beal.errors import ModelError
-    from beal.motion import transient_growth
     from beal.report.records import critical_record, event_record
     from beal.report.verdict import convention, instability, searched, thrust_unit, verdict
     from beal.stability.critical import critical_events, critical_thrust
@@ -67,7 +66,11 @@ def critical(
             beside["vanishing_damping"] = vanishing_damping_limit(vehicle, max_thrust, formulation)  # type: ignore[arg-type]
         except ModelError:  # the damping is what bears the dead loads: all else was checked above
             beside = dict.fromkeys(BESIDE)
-    transient = None if growth is None else transient_growth(vehicle, growth)
+    transient = None
+    if growth is not None:
+        from beal.motion import transient_growth
+
+        transient = transient_growth(vehicle, growth)
     if as_json:
         listed = {"events": [event_record(event) for event in events]} if every else {}
         others = {name: other and asdict(other) for name, other in beside.items()}

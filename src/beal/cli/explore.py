@@ -20,9 +20,7 @@ def explore(
     as_json: AsJson = False,
 ) -> None:
     """Play with a vehicle on a page in the browser, served by this machine alone."""
-    from beal.interop.files import load
-
-    vehicle = load(model) if model else None
+    first = _text(model) if model else ""
     try:
         from beal.web.serve import serve
     except ModuleNotFoundError as error:
@@ -37,4 +35,11 @@ def explore(
         else:
             note(f"the explorer is at {address}; Ctrl-C ends it")
 
-    serve(vehicle, port, browser, ready)
+    serve(first, port, browser, ready)
+
+
+def _text(model: Path) -> str:
+    from beal.interop.files import load
+    from beal.vehicle.file import dumps
+
+    return dumps(load(model))

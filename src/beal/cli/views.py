@@ -38,9 +38,14 @@ def columns(found: Response, shown: View) -> dict[str, Any]:
 
 def drawing(kind: str) -> "Callable[..., Axes]":
     """The function that draws a quantity in that view."""
-    from beal import plot
 
-    return {"histories": plot.response, "envelope": plot.envelope, "spectrum": plot.amplitude_spectrum}[kind]
+    def draw(*given: Any, **options: Any) -> "Axes":
+        from beal import plot
+
+        draws = {"histories": plot.response, "envelope": plot.envelope, "spectrum": plot.amplitude_spectrum}
+        return draws[kind](*given, **options)
+
+    return draw
 
 
 def _amplitude(found: Response, sensor: str, quantity: Any) -> Any:

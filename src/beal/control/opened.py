@@ -15,6 +15,10 @@ from beal.errors import ModelError
 from beal.stability.threads import one_thread
 from beal.vehicle.vehicle import Vehicle
 
+DECADES, EACH = (-2.0, 1.0), 400  # below the slowest pole and beyond the fastest of modes; points of a decade
+BESIDE = np.sinh(np.linspace(-6.0, 6.0, 121))  # points beside a resonance, in its half widths
+UNDAMPED = 1e-9  # of the frequency, nearer than which to a pole L has no value
+
 
 def open_loop(model: Vehicle | Operators, thrust: float | None = None, modes: int = 6) -> StateSpace:
     """The control loop of a vehicle, broken before its filters and actuator.
@@ -95,3 +99,18 @@ def opened(closed: Loop, thrust: float) -> tuple[Array, Array, Array, float]:
     none = np.zeros(len(law.A))
     C = -np.concatenate((g0, g1, none))[None] - g2 @ A[n : 2 * n]
     return A, B, C, -float(g2 @ B[n : 2 * n, 0])
+
+
+def frequencies(loop: StateSpace) -> Array:
+    """Where to look at a loop: evenly over its decades, close together beside its resonances, and not at a pole."""
+    poles = np.linalg.eigvals(loop.A)
+    size = np.abs(poles)[np.abs(poles) > 1e-6 * np.abs(poles).max()]
+    swings = poles[poles.imag > 0]
+    top = swings.imag.max(initial=size.min())
+    low, high = np.log10(size.min()) + DECADES[0], np.log10(top) + DECADES[1]
+    even = np.logspace(low, high, round((high - low) * EACH))
+    width = np.maximum(np.abs(swings.real), 1e-4 * swings.imag)
+    near = (swings.imag[:, None] + width[:, None] * BESIDE).ravel()
+    omega = np.unique(np.concatenate((even, near[(near > even[0]) & (near < even[-1])])))
+    apart = np.abs(1j * omega[:, None] - poles).min(axis=1)
+    return np.asarray(omega[apart > UNDAMPED * omega])

@@ -13,8 +13,8 @@ from beal.stability.kernels.rules import STABLE
 from beal.stability.pencil import Array
 from beal.stability.table import reference
 from beal.study.solve import solve_points
-from beal.study.store import STATUS
 from beal.study.study import Study
+from beal.study.variables import STATUS
 
 ASIDE, FARTHEST = 1e-6, 0.1  # distance in ln k at which both sides of a border are looked at: least, and most
 SEEN, GAP = 1e-6, 1e-4  # shares of the thrust: its change, or the length of a new instability, to be met there

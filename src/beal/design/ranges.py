@@ -14,8 +14,8 @@ from beal.stability.critical import critical_thrust
 from beal.stability.kernels.rules import STABLE
 from beal.stability.table import SPRING_PATH, reference
 from beal.study.solve import solve_points
-from beal.study.store import STATUS
 from beal.study.study import Solve, Study
+from beal.study.variables import STATUS
 from beal.vehicle.links import Link
 from beal.vehicle.paths import value_at
 from beal.vehicle.vehicle import Vehicle

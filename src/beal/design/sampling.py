@@ -21,8 +21,8 @@ from beal.stability.threads import one_thread
 from beal.study.blocks import ALONE, DAMPED
 from beal.study.run import SMALL, Processes, cores, run
 from beal.study.solve import solve_points
-from beal.study.store import KINDS, STATUS
 from beal.study.study import Solve, Study
+from beal.study.variables import KINDS, STATUS
 from beal.vehicle.vehicle import Vehicle
 
 Array = NDArray[np.float64]

@@ -4,7 +4,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import detrend
 
 from beal.errors import ModelError
 from beal.motion.histories import Quantity, Response, turning_points
@@ -86,6 +85,8 @@ def amplitude_spectrum(response: Response, sensor: str, quantity: Quantity = "di
     history = response.history(sensor, quantity)
     if len(history) < FEWEST:
         raise ModelError(f"spectrum: needs at least {FEWEST} samples, found {len(history)}; lengthen the duration")
+    from scipy.signal import detrend  # takes longer to import than most commands to answer
+
     history = detrend(history[:-1])  # a motion that fills the duration with whole periods then falls on bins
     window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(len(history)) / len(history))
     amplitude = 2 * abs(np.fft.rfft(window * history)) / window.sum()

@@ -25,7 +25,7 @@ from beal.paper.evidence import (
     forced_amplitude,
     growth,
 )
-from beal.study.store import KINDS, STATUS
+from beal.study.variables import KINDS, STATUS
 
 FLUTTER, DIVERGENCE = KINDS.index("flutter"), KINDS.index("divergence")
 LOW_ROTATIONAL, HIGH_SHEAR = 1e2, 1e3  # geometric middles of the ranges

@@ -16,7 +16,7 @@ from beal.paper import cases
 from beal.paper.evidence import Curve, Maps
 from beal.plot.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION
 from beal.stability.spectrum import Spectrum
-from beal.study.store import VARIABLES
+from beal.study.variables import VARIABLES
 from beal.vehicle.catalog import tsto
 
 if TYPE_CHECKING:

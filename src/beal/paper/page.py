@@ -15,7 +15,7 @@ from beal.paper.findings import Findings
 from beal.paper.page_findings import add_findings
 from beal.report import Page, data_uri, table
 from beal.report.html import Markup
-from beal.study.store import STATUS
+from beal.study.variables import STATUS
 
 TITLE = "A flexible joint under follower thrust: Irani & Kavianipour (2009) computed again"
 SYMBOLS = {"holds": ("holds", "holds"), "holds in part": ("part", "in part"), "fails": ("fails", "fails")}

@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from beal.design.answer import DesignAnswer
 from beal.plot.maps import DIVERGENCE, axis_label, stability_map
 from beal.plot.refined import regions
 from beal.plot.style import BLACK, BLUE, ORANGE, VERMILION, axes, style, thrust_label, thrust_unit
@@ -14,8 +13,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from xarray import Dataset
 
+    from beal.design.answer import DesignAnswer
 
-def design_map(answer: DesignAnswer, ax: "Axes | None" = None) -> "Axes":
+
+def design_map(answer: "DesignAnswer", ax: "Axes | None" = None) -> "Axes":
     """Draw the critical thrust over one or two variables with the design, and what bounds it.
 
     Over two variables a star is the design, and lines inside each region are where the critical thrust falls to the
@@ -48,13 +49,13 @@ def design_map(answer: DesignAnswer, ax: "Axes | None" = None) -> "Axes":
         return ax
 
 
-def _place(answer: DesignAnswer) -> tuple[float, float]:
+def _place(answer: "DesignAnswer") -> tuple[float, float]:
     dims = [str(name) for name in answer.chart.critical_thrust.dims]
     found = [answer.best.values[path] for path in dims]
     return (found[0], answer.critical.critical_thrust or 0.0) if len(found) == 1 else (found[0], found[1])
 
 
-def _line(answer: DesignAnswer, ax: "Axes") -> None:
+def _line(answer: "DesignAnswer", ax: "Axes") -> None:
     chart = answer.chart
     path = str(chart.critical_thrust.dims[0])
     x, thrust = np.asarray(chart[path]), np.asarray(chart.critical_thrust)
@@ -81,7 +82,7 @@ def _line(answer: DesignAnswer, ax: "Axes") -> None:
     ax.yaxis.set_major_formatter(lambda value, _: f"{value / size:g}")
 
 
-def _kept(answer: DesignAnswer, ax: "Axes") -> None:
+def _kept(answer: "DesignAnswer", ax: "Axes") -> None:
     """Within each region: over a border the thrust jumps."""
     x, y, thrust = _grid(answer.chart)
     region = regions(answer.chart)
@@ -92,7 +93,7 @@ def _kept(answer: DesignAnswer, ax: "Axes") -> None:
     ax.plot([], [], color=ORANGE, linewidth=1.6, label=_kept_label(answer))
 
 
-def _bounds(answer: DesignAnswer, ax: "Axes") -> None:
+def _bounds(answer: "DesignAnswer", ax: "Axes") -> None:
     """Linear bounds that speak of the two variables alone."""
     x, y, _ = _grid(answer.chart)
     dims = [str(name) for name in answer.chart.critical_thrust.dims]
@@ -108,7 +109,7 @@ def _bounds(answer: DesignAnswer, ax: "Axes") -> None:
                 label = None
 
 
-def _kept_label(answer: DesignAnswer) -> str:
+def _kept_label(answer: "DesignAnswer") -> str:
     return f"{answer.study.keep:.0%} of the design's critical thrust"
 
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from beal.control import Margins, StateSpace
+from beal.control.opened import frequencies
 from beal.control.state_space import python_control
 from beal.plot.style import BLACK, BLUE, GREY, VERMILION, axes, style
 
@@ -12,9 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Array = np.ndarray[Any, np.dtype[Any]]
-DECADES, EACH = (-2.0, 1.0), 400  # below the slowest pole and beyond the fastest of modes; points of a decade
-BESIDE = np.sinh(np.linspace(-6.0, 6.0, 121))  # points beside a resonance, in its half widths
-UNDAMPED = 1e-9  # of the frequency, nearer than which to a pole L has no value
 REACH = 3.0  # from the origin, of what Nyquist's plot shows
 ARROWS = 2.0  # distance from one to the next
 DECIBELS = (-40.0, 30.0)
@@ -113,21 +111,6 @@ def nichols(loop: StateSpace, ax: "Axes | None" = None, margins: Margins | None 
         ax.set_ylabel("modulus of L (dB)")
         _legend(ax)
         return ax
-
-
-def frequencies(loop: StateSpace) -> Array:
-    """Where to look at a loop: evenly over its decades, close together beside its resonances, and not at a pole."""
-    poles = np.linalg.eigvals(loop.A)
-    size = np.abs(poles)[np.abs(poles) > 1e-6 * np.abs(poles).max()]
-    swings = poles[poles.imag > 0]
-    top = swings.imag.max(initial=size.min())
-    low, high = np.log10(size.min()) + DECADES[0], np.log10(top) + DECADES[1]
-    even = np.logspace(low, high, round((high - low) * EACH))
-    width = np.maximum(np.abs(swings.real), 1e-4 * swings.imag)
-    near = (swings.imag[:, None] + width[:, None] * BESIDE).ravel()
-    omega = np.unique(np.concatenate((even, near[(near > even[0]) & (near < even[-1])])))
-    apart = np.abs(1j * omega[:, None] - poles).min(axis=1)
-    return np.asarray(omega[apart > UNDAMPED * omega])
 
 
 def _response(loop: StateSpace, omega: Array) -> Array:

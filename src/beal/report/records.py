@@ -2,20 +2,21 @@
 
 import math
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from beal.control import ClosedLoop, Margins
-from beal.design.pareto import ParetoFront
-from beal.design.reliability import probability_of_instability, thrust_quantile
-from beal.design.sampling import Sample
-from beal.motion import PARTS, QUANTITIES, Response
 from beal.stability.complete import Event
 from beal.stability.critical import CriticalThrust
 from beal.stability.curve import ThrustCurve
 from beal.stability.pencil import ComplexArray
 from beal.stability.spectrum import Spectrum
-from beal.study.flight import Flight, FlightState
 from beal.vehicle.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from beal.control import ClosedLoop, Margins
+    from beal.design.pareto import ParetoFront
+    from beal.design.sampling import Sample
+    from beal.motion import Response
+    from beal.study.flight import Flight, FlightState
 
 QUANTILES = (0.01, 0.05, 0.5, 0.95)
 
@@ -99,7 +100,7 @@ def modes_record(vehicle: Vehicle, found: Spectrum, error: Any, formulation: str
     }
 
 
-def sample_record(found: Sample, thrust: float | None) -> dict[str, Any]:
+def sample_record(found: "Sample", thrust: float | None) -> dict[str, Any]:
     """What ``beal uncertainty --json`` says of random vehicles.
 
     Parameters
@@ -112,6 +113,8 @@ def sample_record(found: Sample, thrust: float | None) -> dict[str, Any]:
     -------
     dict
     """
+    from beal.design.reliability import probability_of_instability, thrust_quantile
+
     quantiles = {q: thrust_quantile(found, q) for q in QUANTILES}
     return {
         "samples": found.count,
@@ -127,7 +130,7 @@ def sample_record(found: Sample, thrust: float | None) -> dict[str, Any]:
     }
 
 
-def front_record(found: ParetoFront) -> dict[str, Any]:
+def front_record(found: "ParetoFront") -> dict[str, Any]:
     """A Pareto front as a JSON object.
 
     Parameters
@@ -157,7 +160,7 @@ def front_record(found: ParetoFront) -> dict[str, Any]:
     }
 
 
-def response_record(vehicle: Vehicle, found: Response, growth: float | None) -> dict[str, Any]:
+def response_record(vehicle: Vehicle, found: "Response", growth: float | None) -> dict[str, Any]:
     """What ``beal response --json`` says.
 
     Parameters
@@ -171,6 +174,8 @@ def response_record(vehicle: Vehicle, found: Response, growth: float | None) -> 
     -------
     dict
     """
+    from beal.motion import PARTS, QUANTITIES
+
     whats = (*QUANTITIES, *PARTS)
     return {
         "time": found.time,
@@ -184,7 +189,7 @@ def response_record(vehicle: Vehicle, found: Response, growth: float | None) -> 
     }
 
 
-def flight_record(found: Flight) -> dict[str, Any]:
+def flight_record(found: "Flight") -> dict[str, Any]:
     """What ``beal flight --json`` says: one list for each quantity, an entry for each time."""
     omega = found.angular_frequency
     return {
@@ -207,13 +212,13 @@ def flight_record(found: Flight) -> dict[str, Any]:
     }
 
 
-def stage_range(state: FlightState) -> str:
+def stage_range(state: "FlightState") -> str:
     """The stages attached, as the model file names them: ``1-2``."""
     first, last = state.stages
     return f"{first}" if first == last else f"{first}-{last}"
 
 
-def control_record(vehicle: Vehicle, found: ClosedLoop, margins: Margins) -> dict[str, Any]:
+def control_record(vehicle: Vehicle, found: "ClosedLoop", margins: "Margins") -> dict[str, Any]:
     """What ``beal control --json`` says.
 
     Parameters

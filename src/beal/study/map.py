@@ -17,9 +17,10 @@ from beal.study.blocks import Blocks, blocks
 from beal.study.place import Place
 from beal.study.run import run, workers_for
 from beal.study.solve import solve_block
-from beal.study.store import Arrays, Store, attributes, empty, prepare, variable_attributes
+from beal.study.store import Store, attributes, prepare
 from beal.study.study import Solve, Study
 from beal.study.summary import Summary
+from beal.study.variables import Arrays, empty, variable_attributes
 from beal.vehicle.links import Link
 from beal.vehicle.vehicle import Vehicle
 

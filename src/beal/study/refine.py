@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from beal.errors import ModelError
 from beal.study.lattice import Index, Integers, Lattice, distinct
-from beal.study.store import Arrays
+from beal.study.variables import Arrays
 
 Indices = NDArray[np.intp]
 Booleans = NDArray[np.bool_]

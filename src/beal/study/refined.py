@@ -22,8 +22,9 @@ from beal.study.points import GROUP, PointStore, Variable
 from beal.study.refine import LIMIT, Refined, refine
 from beal.study.run import run, workers_for
 from beal.study.solve import solve_points
-from beal.study.store import VARIABLES, Arrays, attributes, empty, variable_attributes
+from beal.study.store import attributes
 from beal.study.study import Solve, Study
+from beal.study.variables import VARIABLES, Arrays, empty, variable_attributes
 from beal.vehicle.links import Link
 from beal.vehicle.vehicle import Vehicle
 

@@ -9,8 +9,8 @@ from beal.stability.kernels.rules import DIVERGENCE, STABLE, UNDECIDED
 from beal.stability.table import TANGENCY
 from beal.study.batch import WORTHWHILE, solve_together
 from beal.study.blocks import Block
-from beal.study.store import KINDS, METHODS, STATUS, Arrays, empty
 from beal.study.study import Study
+from beal.study.variables import KINDS, METHODS, STATUS, Arrays, empty
 
 Values = NDArray[np.float64]
 

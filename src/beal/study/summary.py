@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from beal.study.store import KINDS, METHODS, STATUS, Arrays
+from beal.study.variables import KINDS, METHODS, STATUS, Arrays
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from beal.stability.modes import converged_modes
 from beal.stability.spectrum import Spectrum, spectrum
 from beal.study.batch import WORTHWHILE
 from beal.study.solve import solve_points
-from beal.study.store import KINDS, STATUS
 from beal.study.study import Solve, Study
+from beal.study.variables import KINDS, STATUS
 from beal.vehicle.file import dumps
 from beal.vehicle.paths import value_at
 from beal.vehicle.vehicle import Vehicle

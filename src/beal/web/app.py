@@ -2,13 +2,12 @@
 
 import json
 import os
-from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
 import anyio
-from anyio import BrokenWorkerProcess, CancelScope, CapacityLimiter, to_process
+from anyio import BrokenWorkerProcess, CancelScope, CapacityLimiter
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
@@ -19,8 +18,7 @@ from starlette.staticfiles import StaticFiles
 
 from beal.web.examples import EXAMPLES, example_text
 from beal.web.guard import Guard, TooLarge, body_of, errors
-from beal.web.openapi import description
-from beal.web.worker import QUESTIONS, answered
+from beal.web.process import asked
 
 LONGEST = 20.0  # seconds that an answer may take
 WATCHED = 0.2  # seconds from one look whether somebody waits for it to the next
@@ -61,20 +59,22 @@ def application(first: str = "") -> Starlette:
         return FileResponse(PLOTLY)
 
     async def openapi(request: Request) -> Response:
-        return JSONResponse(description(QUESTIONS))
+        return _json(*await asked("openapi", b""))
 
-    asked = [
-        Route(f"/api/{name}", _endpoint(name, limits.get(name, limits[""])), methods=["POST"]) for name in QUESTIONS
-    ]
-    plain_routes = [
+    async def answer(request: Request) -> Response:
+        name = request.path_params["name"]
+        return await _answer(request, name, limits.get(name, limits[""]))
+
+    routes = [
         Route("/", page),
         Route("/plotly.js", plotly),
         Route("/openapi.json", openapi),
         Route("/api/start", begin),
         Route("/api/examples/{name}", example),
+        Route("/api/{name}", answer, methods=["POST"]),
     ]
     app = Starlette(
-        routes=[*plain_routes, *asked],
+        routes=routes,
         middleware=[Middleware(Guard)],
         exception_handlers={HTTPException: _http},
     )
@@ -82,22 +82,22 @@ def application(first: str = "") -> Starlette:
     return app
 
 
-def _endpoint(name: str, limit: CapacityLimiter) -> Callable[[Request], Awaitable[Response]]:
-    async def respond(request: Request) -> Response:
-        if request.headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
-            return JSONResponse(errors("must be JSON: Content-Type application/json"), status_code=415)
-        try:
-            body = await body_of(request)
-            with anyio.fail_after(LONGEST):
-                status, text = await _while_wanted(request, name, body, limit)
-        except TooLarge as error:
-            return JSONResponse(errors(str(error)), status_code=413)
-        except TimeoutError:
-            message = f"took longer than {LONGEST:g} s; the command beal has no such limit"
-            return JSONResponse(errors(message), status_code=503)
-        return Response(text, status, media_type="application/json")
+async def _answer(request: Request, name: str, limit: CapacityLimiter) -> Response:
+    if request.headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
+        return JSONResponse(errors("must be JSON: Content-Type application/json"), status_code=415)
+    try:
+        body = await body_of(request)
+        with anyio.fail_after(LONGEST):
+            return _json(*await _while_wanted(request, name, body, limit))
+    except TooLarge as error:
+        return JSONResponse(errors(str(error)), status_code=413)
+    except TimeoutError:
+        message = f"took longer than {LONGEST:g} s; the command beal has no such limit"
+        return JSONResponse(errors(message), status_code=503)
 
-    return respond
+
+def _json(status: int, text: bytes) -> Response:
+    return Response(text, status, media_type="application/json")
 
 
 async def _while_wanted(request: Request, name: str, body: bytes, limit: CapacityLimiter) -> tuple[int, bytes]:
@@ -106,7 +106,7 @@ async def _while_wanted(request: Request, name: str, body: bytes, limit: Capacit
     async with anyio.create_task_group() as both:
         both.start_soon(_left, request, both.cancel_scope)
         with suppress(BrokenWorkerProcess):
-            found = await to_process.run_sync(answered, name, body, cancellable=True, limiter=limit)
+            found = await asked(name, body, limit)
         both.cancel_scope.cancel()
     return found
 

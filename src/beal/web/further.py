@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from beal.control import closed_loop, open_loop, stability_margins
+from beal.control.opened import frequencies
 from beal.errors import ModelError
-from beal.plot.opened import frequencies
 from beal.report.records import control_record, flight_record, pairs
 from beal.study.flight import flight as fly
 from beal.study.pulsating import chart_resonances, floquet_chart

@@ -1,33 +1,32 @@
 """Running the explorer on this machine."""
 
+import json
 import socket
 import webbrowser
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from functools import partial
+from typing import Any
 
 import uvicorn
-from anyio import create_task_group, to_process
+from anyio import create_task_group
 from starlette.applications import Starlette
 
 from beal.errors import ModelError
-from beal.vehicle.file import dumps
-from beal.vehicle.vehicle import Vehicle
 from beal.web.app import application
 from beal.web.examples import example_text
-from beal.web.questions import Map, Question, Solve
-from beal.web.worker import answered
+from beal.web.process import asked
 
 HOST = "127.0.0.1"
 
 
-def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[str], None]) -> None:
+def serve(first: str, port: int, browser: bool, ready: Callable[[str], None]) -> None:
     """Serve the explorer until it is interrupted.
 
     Parameters
     ----------
-    vehicle : Vehicle or None
-        What it opens with.
+    first : str
+        The model that it opens with; an example if empty.
     port : int
         0 takes any that is free.
     browser : bool
@@ -49,7 +48,7 @@ def serve(vehicle: Vehicle | None, port: int, browser: bool, ready: Callable[[st
             message = f"{port} cannot be used: {error}; leave it out to take any that is free"
             raise ModelError([("--port", message)]) from None
         address = f"http://{HOST}:{listening.getsockname()[1]}/"
-        app = application(dumps(vehicle) if vehicle else "")
+        app = application(first)
         app.router.lifespan_context = partial(_announced, address, browser, ready)
         uvicorn.Server(uvicorn.Config(app, log_level="warning", lifespan="on")).run(sockets=[listening])
 
@@ -70,10 +69,10 @@ async def _prepared() -> None:
     model = example_text("tsto")
     async with create_task_group() as both:
         for points in (2, 3):
-            both.start_soon(_asked, "solve", Solve(model=model, points=points))
+            both.start_soon(_asked, "solve", {"model": model, "points": points})
     axes = ("joint[0].rotational_stiffness", "joint[0].shear_stiffness")
-    await _asked("map", Map(model=model, axes=axes, points=tuple((10.0**n, 10.0**n) for n in range(1, 6))))
+    await _asked("map", {"model": model, "axes": axes, "points": [(10.0**n, 10.0**n) for n in range(1, 6)]})
 
 
-async def _asked(name: str, question: Question) -> None:
-    await to_process.run_sync(answered, name, question.model_dump_json().encode(), cancellable=True)
+async def _asked(name: str, question: dict[str, Any]) -> None:
+    await asked(name, json.dumps(question).encode())

@@ -11,10 +11,12 @@ from pydantic import ValidationError
 
 from beal.errors import ConvergenceError, ModelError
 from beal.report.numbers import plain
+from beal.stability.threads import one_thread
 from beal.vehicle.base import Part, problems
 from beal.web import answers, further
 from beal.web import questions as ask
 from beal.web.guard import errors
+from beal.web.openapi import description
 
 KEPT = 20_000  # bytes of a question whose answer is remembered
 Answering = Callable[[Any], dict[str, Any]]
@@ -42,15 +44,20 @@ def answered(name: str, body: bytes) -> tuple[int, bytes]:
     Parameters
     ----------
     name : str
+        Of the question, or ``openapi`` for the description of all.
     body : bytes
         The question as JSON.
 
     Returns
     -------
     status : int
-        422 where the answer is a list of problems.
+        422 where the answer is a list of problems, 404 where nothing answers to the name.
     answer : bytes
     """
+    if name == "openapi":
+        return 200, json.dumps(description(QUESTIONS)).encode()
+    if name not in QUESTIONS:
+        return 404, json.dumps(errors(f"must be one of {', '.join(QUESTIONS)}", "name")).encode()
     try:
         return 200, (_remembered if len(body) < KEPT else _answer)(name, body)
     except ModelError as error:
@@ -66,7 +73,7 @@ def _answer(name: str, body: bytes) -> bytes:
     except ValidationError as error:
         raise ModelError(problems(error, kind)) from None
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), one_thread():  # processes enough share the cores
             return json.dumps(plain(answer(question)), allow_nan=False).encode()
     except ModelError:
         raise
