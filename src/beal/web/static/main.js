@@ -66,7 +66,7 @@ const drafts = new Latest("draft", (answer, asked) => {
 function curvesShown() {
   motionShown();
   charts.curve(solved, thrustNow());
-  requestAnimationFrame(locus);
+  requestAnimationFrame(() => setTimeout(locus)); // once the curves are seen
   document.querySelector("main").classList.remove("stale");
 }
 
