@@ -112,3 +112,9 @@ def test_a_build_that_would_load_from_a_network_fails(offline, tmp_path):
 def test_the_version_to_cite_is_this_one():
     assert f"version {beal.__version__}." in (DOCS / "limits.md").read_text(encoding="utf-8")
     assert f"\nversion: {beal.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+
+
+def test_the_manual_is_built_without_a_warning(tmp_path):
+    options = ["-W", "--keep-going", "--quiet", "-b", "html"]
+    run([sys.executable, "-m", "sphinx", *options, str(DOCS), str(tmp_path)], ROOT)
+    assert (tmp_path / "index.html").exists()

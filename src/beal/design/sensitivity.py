@@ -100,7 +100,7 @@ class Sensitivity(Shown):
     status : {"smooth", "near a switch", "near a cliff", "tie"}
         Whether another critical thrust is within 5 %, so that the derivatives hold for small changes only; whether 5 %
         of a quantity would newly bring about one below; or whether another is within 1e-6: then the smallest has a
-        kink and each side its own derivative, `Parameter.below` and `Parameter.above`.
+        kink and each side its own derivative, ``below`` and ``above`` of its parameter.
     rivals : tuple of Rival
     units : {"SI", "nondimensional"}
     touches : tuple of Touch
