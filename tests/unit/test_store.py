@@ -11,7 +11,7 @@ import xarray
 import zarr
 
 import beal
-from beal.study import blocks, store
+from beal.study import blocks, store, variables
 from beal.study.map import run_study
 from beal.study.study import Solve, Study
 from beal.study.variables import VARIABLES
@@ -113,8 +113,8 @@ def test_the_summary_counts_what_was_solved_before_too(tmp_path, undisturbed):
     assert summary.named() == {
         "points": 900,
         "status": {"pending": 0, "solved": 900, "not_converged": 0, "invalid": 0},
-        "kind": {name: int(np.sum(undisturbed["kind"] == n)) for n, name in enumerate(store.KINDS)},
-        "method": {name: int(np.sum(undisturbed["method"] == n + 1)) for n, name in enumerate(store.METHODS[1:])},
+        "kind": {name: int(np.sum(undisturbed["kind"] == n)) for n, name in enumerate(variables.KINDS)},
+        "method": {name: int(np.sum(undisturbed["method"] == n + 1)) for n, name in enumerate(variables.METHODS[1:])},
         "lowest": float(undisturbed["critical_thrust"].min()),
         "highest": float(undisturbed["critical_thrust"].max()),
     }

@@ -108,10 +108,15 @@ def test_spacing_holds_both_ends_exactly():
     assert spaced(0.1, 0.9, 4, "linear") == pytest.approx((0.1, 0.1 + 0.8 / 3, 0.1 + 1.6 / 3, 0.9))
 
 
-def test_a_point_that_the_model_refuses_is_invalid_and_the_others_are_solved():
-    result = beal.stability_map(VEHICLE, {"stage.split": [0.2, 1.2, 0.8]})
-    assert result["status"].values.tolist() == [1, 3, 1]
-    assert np.isnan(result["critical_thrust"].values[1])
+@pytest.mark.parametrize(
+    ("path", "refused", "others"), [("stage.split", 1.2, (0.2, 0.8)), (ROTATIONAL, -1.0, (1.0, 10.0, 100.0, 1e3))]
+)
+@pytest.mark.parametrize("place", [0, 1])
+def test_a_point_that_the_model_refuses_is_invalid_and_the_others_are_solved(path, refused, others, place):
+    result = beal.stability_map(VEHICLE, {path: [*others[:place], refused, *others[place:]]})
+    invalid = np.arange(len(others) + 1) == place
+    assert result["status"].values.tolist() == np.where(invalid, 3, 1).tolist()
+    assert np.isnan(result["critical_thrust"].values).tolist() == invalid.tolist()
     assert result["status"].attrs["flag_meanings"].split()[3] == "invalid"
 
 

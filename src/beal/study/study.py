@@ -90,9 +90,21 @@ class Study:
         for path in self.links:
             value_at(self.vehicle, path)
         for path, axis in self.axes.items():
-            with_values(self.vehicle, {path: axis[0]})
+            self._can_vary(path, (axis[0], axis[len(axis) // 2], axis[-1]))
         if self.solve.formulation in RITZ:  # else every point would be invalid, for the same reason
             check_ritz(self.vehicle, self.solve.formulation)
+
+    def _can_vary(self, path: str, some: tuple[float, ...]) -> None:
+        """Refuses an axis if none of some of its values makes a vehicle; single ones may be invalid points."""
+        refusals = []
+        for value in some:
+            try:
+                with_values(self.vehicle, {path: value})
+            except ModelError as error:
+                refusals.append(error)
+            else:
+                return
+        raise refusals[0]
 
     @property
     def shape(self) -> tuple[int, ...]:

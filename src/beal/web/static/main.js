@@ -336,12 +336,12 @@ function wire() {
   on("shown", "change", ({ target }) => { state.set({ mode: Number(target.value) }); state.keep(); });
   const thrust = (value) => state.set({ thrust: value });
   on("thrust", "change", ({ target }) => { const value = parsed(target.value); if (value !== null && value >= 0) { thrust(value); state.keep(); } else if (solved) target.value = short(thrustNow(), 6); });
-  on("thrust-slider", "input", ({ target }) => thrust(Number(((target.valueAsNumber / 1000) * solved.curve.thrust.at(-1)).toPrecision(5))));
+  on("thrust-slider", "input", ({ target }) => solved && thrust(Number(((target.valueAsNumber / 1000) * solved.curve.thrust.at(-1)).toPrecision(5))));
   on("thrust-slider", "change", () => { state.keep(); slower(); });
   on("at-nominal", "click", () => { thrust(null); state.keep(); });
   on("at-critical", "click", () => {
-    const first = solved.critical.elastic ?? solved.critical;
-    if (first.critical_thrust) { state.set({ thrust: Number((1.005 * first.critical_thrust).toPrecision(6)), mode: 0 }); state.keep(); } else toast("There is none up to the thrust searched to");
+    const first = solved?.critical.elastic ?? solved?.critical;
+    if (first?.critical_thrust) { state.set({ thrust: Number((1.005 * first.critical_thrust).toPrecision(6)), mode: 0 }); state.keep(); } else toast("There is none up to the thrust searched to");
   });
   on("play", "click", ({ target }) => { drawing.play(!drawing.running); target.textContent = drawing.running ? "Pause" : "Play"; target.setAttribute("aria-pressed", String(drawing.running)); });
   on("over", "change", ({ target }) => { state.set({ over: target.value }); state.keep(); });
@@ -354,7 +354,7 @@ function wire() {
   });
   on("sensor", "change", ({ target }) => { state.set({ sensor: target.value }); state.keep(); });
   on("start", "change", ({ target }) => { state.set({ start: Number(target.value) }); state.keep(); });
-  on("duration", "change", ({ target }) => { const value = parsed(target.value); if (value > 0) { state.set({ duration: value }); state.keep(); } else duration(); });
+  on("duration", "change", ({ target }) => { const value = parsed(target.value); if (value > 0) { state.set({ duration: value }); state.keep(); } else if (solved) duration(); });
   document.addEventListener("keydown", (event) => {
     const editing = event.target.matches("textarea, input:not([type=range]):not([type=checkbox])");
     if (!(event.ctrlKey || event.metaKey) || editing || event.key.toLowerCase() !== "z") return;
