@@ -39,7 +39,7 @@ def solve_points(study: Study, values: Values) -> Arrays:
     Returns
     -------
     dict of str to ndarray, shape (points,)
-        The variables of `beal.study.store.VARIABLES`.
+        The variables of `beal.study.variables.VARIABLES`.
     """
     arrays = empty((len(values),))
     shared = {axis: path for axis, path in enumerate(study.axes) if study.tabulated(path)}
