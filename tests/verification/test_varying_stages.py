@@ -138,6 +138,19 @@ def test_the_error_estimate_holds_for_rough_tables(kind, stations, monkeypatch):
         assert coarse.critical_thrust == pytest.approx(exact.critical_thrust, rel=1e-6)
 
 
+def test_kinks_in_many_short_stages_that_shear_count_too():
+    count = 40
+    half = 0.5 / count
+    pointed = beam(1.0, table([0, half, 2 * half], [1.0, 1.5, 1.0]), 2 * half, shear_stiffness=1e4)
+    rising, falling = (beam(1.0, table([0, half], ends), half, shear_stiffness=1e4) for ends in ([1, 1.5], [1.5, 1]))
+    whole, halved = (
+        critical_thrust(Vehicle(stages=parts * count, joints=[Joint()] * (len(parts) * count - 1)))
+        for parts in ([pointed], [rising, falling])
+    )
+    assert whole.error_estimate < 1e-9 * whole.critical_thrust
+    assert whole.critical_thrust == pytest.approx(halved.critical_thrust, rel=1e-10)
+
+
 def test_dense_matrices_stay_small_however_long_the_table():
     vehicle = rough("kinks", 400, 0)
     assert len(segments(vehicle)) <= cuts.FEW

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beal.vehicle.parts import Stage
-from beal.vehicle.stations import StationTable
+from beal.vehicle.stations import StationTable, mean
 
 Array = NDArray[np.float64]
 
@@ -19,6 +19,9 @@ LEAST = 1e-3  # share of a table's largest value that others are measured by at 
 STRAIGHT = 1e-9  # relative change that is rounding
 STEP_TO_KINK = 30.0
 NOTICED = 1e-6  # (h/L)^4 (kinks + STEP_TO_KINK steps), which is some 1e-12 of the thrust
+# The follower thrust of a stage that shears acts on the shear strain at a point. No square then: the root of the above
+# times EI/(kGA L^2) n^-2.5, which this leaves at some 1e-10.
+NOTICED_IN_SHEAR = 1e-15
 
 
 @lru_cache(maxsize=256)
@@ -38,16 +41,23 @@ def cuts(stage: Stage, length: float, few: int) -> tuple[float, ...]:
         In order.
     """
     stations, kinks, steps = _bends(stage)
+    noticed = _noticed(stage, length)
     ends = {0.0, stage.length}
     open_segments = [_worst(0.0, stage.length, stations, kinks, steps, length)]
     while len(ends) <= few:
         severity, station, front, back = heapq.heappop(open_segments)
-        if -severity <= NOTICED:
+        if -severity <= noticed:
             break
         ends.add(station)
         for a, b in ((front, station), (station, back)):
             heapq.heappush(open_segments, _worst(a, b, stations, kinks, steps, length))
     return tuple(sorted(ends))[1:-1]
+
+
+def _noticed(stage: Stage, length: float) -> float:
+    """What may stay inside a segment."""
+    shear = mean(stage.bending_stiffness) / (mean(stage.shear_stiffness) * length**2)
+    return min(NOTICED, NOTICED_IN_SHEAR / shear**2) if 0 < shear < np.inf else NOTICED
 
 
 def _worst(
