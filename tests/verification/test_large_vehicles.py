@@ -13,8 +13,10 @@ from beal.discretisation.linked import linked
 from beal.errors import ModelError
 from beal.stability import large
 from beal.stability.critical import CriticalThrust, critical_events, critical_thrust
+from beal.stability.curve import thrust_curve
 from beal.stability.limit import default_limit
 from beal.stability.modes import converged_modes
+from beal.stability.spectrum import spectrum
 from beal.vehicle.parts import Force, Joint, PointMass, Stage, Support, Thrust
 from beal.vehicle.signals import Step
 from beal.vehicle.vehicle import Vehicle
@@ -46,6 +48,24 @@ def assert_same(dense: CriticalThrust, sparse: CriticalThrust) -> None:
     assert sparse.critical_thrust == pytest.approx(dense.critical_thrust, rel=1e-9)
     # a double root is good to the square root of the thrust's precision, and less where it lies near zero
     assert sparse.angular_frequency == pytest.approx(dense.angular_frequency, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", [0, 2, 7, 12, 19, 26, 28, 32])
+def test_modes_of_a_random_vehicle_over_thrust_are_those_of_dense_matrices(seed, monkeypatch):
+    rng = np.random.default_rng([11, seed])
+    vehicle = random_long_vehicle(rng, int(rng.integers(5, 22)))
+    formulation = "converged" if seed % 4 == 3 else "objective"
+    found = critical_thrust(vehicle, formulation=formulation)
+    to = 1.3 * (found.elastic or found).critical_thrust
+    dense, sparse = (
+        np.sort_complex(curve.angular_frequency + 1j * curve.growth_rate)
+        for curve in both_ways(lambda: thrust_curve(vehicle, to, 25, 4, formulation), monkeypatch)
+    )
+    stable, highest = slice(18), np.abs(dense).max()
+    assert np.abs(sparse - dense)[stable].max() < 1e-8 * highest
+    assert np.abs(sparse - dense).max() < 1e-5 * highest  # roots that have met go as the square root
+    exact = spectrum(discretise(vehicle, formulation, order=14), to, 4)
+    assert sparse[-1].imag.max() == pytest.approx(exact.growth_rate.max(), rel=1e-3)
 
 
 @pytest.mark.parametrize("seed", range(40))

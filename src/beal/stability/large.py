@@ -36,7 +36,32 @@ SETTLED = 1e-6  # relative change of the watched inertias in a step of the Krylo
 INDEPENDENT = 1e-7  # share of a vector that must be new
 NOISE = 1e-13  # correction of a unit vector that is rounding
 CORRECTIONS = 12
+EXACT = 3  # thrusts of a curve, at which its modes are exact
 SAME = 1e-13  # relative change below which a point, or the roots beside the shift, have settled
+
+
+def operators_over_thrust(vehicle: Vehicle, formulation: Formulation, to: float, count: int) -> Operators:
+    """Dense operators of few coordinates that hold the lowest modes of a large vehicle over a range of thrust.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    formulation : {"objective", "converged"}
+    to : float
+        Last thrust, in N.
+    count : int
+        Number of elastic modes.
+
+    Returns
+    -------
+    Operators
+        Exact at some thrusts; the vectors that belong to them leave some 1e-7 between.
+    """
+    found = Reduction(vehicle, formulation, count)
+    found.refine()
+    for thrust in np.linspace(0.0, to, EXACT):
+        found.corrected_modes(float(thrust), count)
+    return found.operators
 
 
 def is_large(vehicle: Vehicle) -> bool:
@@ -96,7 +121,7 @@ class Reduction:
     def spectra(self, thrust: float, count: int) -> Iterator[Spectrum]:
         """The lowest elastic modes at a thrust in finer and finer discretisations."""
         while True:
-            yield self._corrected_modes(thrust, count)
+            yield self.corrected_modes(thrust, count)
             if not self.refine():
                 return
 
@@ -132,7 +157,8 @@ class Reduction:
             return vanishing_root(full, guess.point.thrust, guess.point.W)
         return polish(full, guess.kind, guess.point.thrust, guess.point.W)
 
-    def _corrected_modes(self, thrust: float, count: int) -> Spectrum:
+    def corrected_modes(self, thrust: float, count: int) -> Spectrum:
+        """The lowest elastic modes at a thrust, with the vectors that they need."""
         system = self.system
         before = np.full(count, np.inf, dtype=complex)
         for _ in range(CORRECTIONS):

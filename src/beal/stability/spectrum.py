@@ -97,11 +97,7 @@ def spectrum(operators: Operators, thrust: float = 0.0, count: int = 6) -> Spect
         raise ModelError(f"count: must lie between 1 and {elastic} for this discretisation, found {count}")
     if full.C is not None:
         return _damped(operators, full, thrust, count)
-    W, shapes = lowest(full, thrust, count + full.rigid)
-    if full.rigid:  # the smallest root is that of the rigid-body motion, unless none is zero: the vehicle tumbles
-        tumbles = np.abs(W).min() > ZERO * full.shift and W[0].real < -ZERO * full.shift
-        smallest = 0 if tumbles else np.abs(W).argmin()
-        W, shapes = np.delete(W, smallest), np.delete(shapes, smallest, axis=1)
+    W, shapes = elastic_modes(full, thrust, count)
     embedded = np.zeros((len(operators.M), count), dtype=complex)
     embedded[len(operators.M) - len(shapes) :] = shapes
     return Spectrum(float(thrust), W, embedded, operators.rigid, units=operators.vehicle.units)
@@ -113,6 +109,19 @@ def _damped(operators: Operators, full: Pencil, thrust: float, count: int) -> Sp
     embedded = np.zeros((len(operators.M), count), dtype=complex)
     embedded[len(operators.M) - len(shapes) :] = shapes[:, elastic]
     return Spectrum(float(thrust), -(s[elastic] ** 2), embedded, operators.rigid, s[elastic], operators.vehicle.units)
+
+
+def elastic_modes(full: Pencil, thrust: float, count: int) -> tuple[ComplexArray, ComplexArray]:
+    """The ``count`` roots of smallest real part without that of the rigid-body motion, with M-normalised vectors.
+
+    The smallest root is that of the rigid-body motion, unless none is zero: the vehicle tumbles.
+    """
+    W, shapes = lowest(full, thrust, count + full.rigid)
+    if not full.rigid:
+        return W, shapes
+    tumbles = np.abs(W).min() > ZERO * full.shift and W[0].real < -ZERO * full.shift
+    rigid = 0 if tumbles else np.abs(W).argmin()
+    return np.delete(W, rigid), np.delete(shapes, rigid, axis=1)
 
 
 def lowest(full: Pencil, thrust: float, count: int) -> tuple[ComplexArray, ComplexArray]:

@@ -14,7 +14,7 @@ from beal.report.records import critical_record, curve_record, event_record, mod
 from beal.report.verdict import convention, searched, shown_to, verdict
 from beal.stability.critical import critical_events, critical_thrust
 from beal.stability.curve import thrust_curve
-from beal.stability.large import Reduction, is_large
+from beal.stability.large import Reduction, is_large, operators_over_thrust
 from beal.stability.limit import default_limit
 from beal.stability.modes import converged_modes
 from beal.stability.spectrum import Spectrum, spectrum
@@ -29,7 +29,6 @@ from beal.web import questions as ask
 from beal.web.code import command_lines, python_lines
 from beal.web.vehicles import base_of, controls, described, opened, vehicle_of
 
-COARSE = 6  # degree on each of many segments: frequencies are good to some 1e-7
 FEW = 21  # points of the curves of a draft
 DRAWN = 24  # points of a mode shape in each stage
 Answer = dict[str, Any]
@@ -78,7 +77,7 @@ def modes(question: ask.Modes) -> Answer:
 def draft(question: ask.Solve) -> Answer:
     """Curves and mode shapes as ``solve`` gives them, roughly and soon; of large vehicles good to some 0.01 %."""
     vehicle = vehicle_of(question)
-    operators = Reduction(vehicle, question.formulation).operators if _coarse(question, vehicle) else None
+    operators = Reduction(vehicle, question.formulation).operators if _is_large(question, vehicle) else None
     return _seen(question, vehicle, operators, question.to or default_limit(vehicle), min(question.points, FEW))
 
 
@@ -86,9 +85,11 @@ def solve(question: ask.Solve) -> Answer:
     """What a move of a slider changes: the vehicle, its verdict, its curves, and mode shapes at a thrust."""
     vehicle = vehicle_of(question)
     found = critical_thrust(vehicle, None, question.formulation)
-    operators = discretise(vehicle, question.formulation, order=COARSE) if _coarse(question, vehicle) else None
+    to = question.to or shown_to(found)
+    large = _is_large(question, vehicle)
+    operators = operators_over_thrust(vehicle, question.formulation, to, question.modes) if large else None
     return {
-        **_seen(question, vehicle, operators, question.to or shown_to(found), question.points),
+        **_seen(question, vehicle, operators, to, question.points),
         "critical": critical_record(vehicle, found),
         "verdict": verdict(vehicle, found),
         "searched": searched(vehicle, found),
@@ -96,8 +97,8 @@ def solve(question: ask.Solve) -> Answer:
     }
 
 
-def _coarse(question: ask.Solve, vehicle: Vehicle) -> bool:
-    """Whether the usual operators would take too long."""
+def _is_large(question: ask.Solve, vehicle: Vehicle) -> bool:
+    """Whether its dense operators would take too long."""
     return is_large(vehicle) and question.formulation not in RITZ
 
 
