@@ -22,7 +22,7 @@ from beal.web.process import asked
 
 LONGEST = 20.0  # seconds that an answer may take
 WATCHED = 0.2  # seconds from one look whether somebody waits for it to the next
-GRACE = 2.0  # seconds for which it may go on when nobody does: to start a process anew takes as long
+GRACE = 0.8  # seconds for which it may go on when nobody does: to start a process anew takes as long
 ENDED = json.dumps(errors("was ended from outside; ask again")).encode()
 STATIC = Path(str(files("beal.web") / "static"))
 PLOTLY = Path(str(files("plotly") / "package_data" / "plotly.min.js"))

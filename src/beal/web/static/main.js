@@ -59,7 +59,6 @@ const drafts = new Latest("draft", (answer, asked) => {
   problems([]);
   byId("verdict").classList.add("waiting");
   curvesShown();
-  clearTimeout(finishing);
   if (isNow(asked)) finishing = setTimeout(() => solutions.ask({ ...question(), thrust: state.now.thrust }), REST);
 }, refused);
 
@@ -106,6 +105,7 @@ function changed(part) {
     }
     map.stop();
     further.stop();
+    clearTimeout(finishing);
     clearTimeout(resting);
     resting = setTimeout(() => models.ask(question()), solved ? REST : 0);
   } else if (solved && "mode" in part) motionShown();
@@ -185,7 +185,7 @@ function slower() {
       const values = Object.fromEntries(Object.entries(state.now.values).filter(([path]) => !axes.some((axis) => axis.path === path)));
       map.now = axes.map(({ value }) => value);
       map.mark(map.now.map((value) => (value === "inf" ? null : value)));
-      map.show({ ...question(), values }, axes, model.vehicle.units);
+      map.show({ ...question(), values }, axes, model.vehicle.units, solutions.took > SLOW);
     } else charts.empty("map", "a map needs two quantities");
   }, Math.min(Math.max(4 * solutions.took, 180), 2000));
 }

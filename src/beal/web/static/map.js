@@ -28,8 +28,8 @@ export class StabilityMap {
     this.stopButton.hidden = this.progress.hidden = true;
   }
 
-  // `axes` are two quantities; everything else is in the question.
-  async show(question, axes, units) {
+  // `axes` are two quantities; everything else is in the question. A slow vehicle is asked about point by point.
+  async show(question, axes, units, slow) {
     const key = JSON.stringify([question, axes.map(({ path, from, to }) => [path, from, to])]);
     if (key === this.key && (this.#stop || key === this.ended)) return;
     this.stop();
@@ -37,7 +37,7 @@ export class StabilityMap {
     if (key !== this.key) Object.assign(this, { key, axes, units, found: new Map(), level: 0, ended: null });
     this.#stop = stop;
     this.stopButton.hidden = this.progress.hidden = false;
-    let many = this.many ?? 2;
+    let many = slow ? 1 : this.many ?? 2;
     try {
       for (const level of LEVELS.keys()) {
         const waiting = missing(level, this.found);
