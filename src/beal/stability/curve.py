@@ -32,7 +32,10 @@ MANY, KEPT = 120, 20  # coordinates from which on a pencil is reduced, and the m
 
 @dataclass(frozen=True)
 class ThrustCurve(Shown):
-    """Tracked modes over thrust.
+    """Tracked elastic modes over thrust.
+
+    The rigid-body motion is not among them; where it grows, as it can beside joints that slide along a fixed line,
+    `critical_thrust` says so.
 
     Parameters
     ----------
