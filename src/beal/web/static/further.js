@@ -51,7 +51,7 @@ const DRAWN = { flight, pulsation, loop };
 function say(words, alarming = false) {
   const note = document.getElementById("further-note");
   note.textContent = words;
-  note.classList.toggle("alarm", Boolean(alarming));
+  note.classList.toggle("alarm", alarming);
 }
 
 async function* flight(question, solved, thrust, signal) {
@@ -86,7 +86,7 @@ function flightDrawn(columns, units) {
   const known = margin.filter((share) => share !== null);
   const least = Math.min(...known);
   const told = !known.length ? "no thrust" : least < 0 ? `unstable: margin down to ${short(100 * least, 4)} %` : `margin at least ${short(100 * least, 4)} %`;
-  say(told, known.length && least < 0);
+  say(told, least < 0);
   const y = axis(title.replace(" P", ""), largest > FAR * Math.min(...positive) ? { type: "log", dtick: 1 } : { rangemode: "tozero" });
   const legend = { orientation: "h", x: 0, y: 1, xanchor: "left", yanchor: "bottom", bgcolor: "rgba(0,0,0,0)" };
   const frame = layout(axis(units === "SI" ? "time (s)" : "time t", { nticks: 9 }), y, { shapes, annotations, legend, showlegend: true, margin: { l: 56, r: 12, t: 28, b: 40 } });
